@@ -1,0 +1,3 @@
+//! Headless: solve, check, link, unlink.
+
+fn main() {}

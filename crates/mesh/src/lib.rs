@@ -1,0 +1,1 @@
+//! Connectivity of a surface, orientable or not: construction, surgery, checks, remeshing, formats.

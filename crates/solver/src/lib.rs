@@ -1,0 +1,1 @@
+//! Fair curves and surfaces: energies with exact gradients, predictor, preconditioned conjugate gradients.

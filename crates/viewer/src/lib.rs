@@ -1,0 +1,1 @@
+//! The page: wgpu passes, camera, picking, controls.

@@ -1,0 +1,3 @@
+//! The workshop: build, serve, test, layer check, size check.
+
+fn main() {}
