@@ -1,1 +1,31 @@
-//! The words that cross a boundary: document, edit, request, reply, frame layout, share link.
+//! The words that cross a boundary: the document, the edits, the messages between page and worker,
+//! the layout of a frame and the share link.
+//!
+//! This crate knows no mesh, no solver and no browser. Both sides of every boundary (worker and page,
+//! command line and file, one user and the next) depend on it and on nothing of each other.
+#![cfg_attr(not(test), warn(clippy::expect_used))]
+
+mod document;
+mod edit;
+mod example;
+mod frame;
+mod id;
+mod protocol;
+mod share;
+mod text;
+mod validate;
+
+pub use document::{
+    Curve, Document, Embedding, MAX_COORDINATE, Objective, Skeleton, SkeletonVertex, Surface,
+};
+pub use edit::{Edit, GrabTarget};
+pub use example::Example;
+pub use frame::{
+    CurveRole, CurveSpan, Figures, FrameHeader, PointEntry, PointRole, Structure, SurfaceSpan,
+    SurfaceSummary, VERTEX_FLOATS, vertex_layout,
+};
+pub use id::{CurveId, PointId, SurfaceId};
+pub use protocol::{Committed, ExportFormat, Exported, Grabbed, Refusal, Reply, Request, Step};
+pub use share::{FRAGMENT_KEY, LinkError, MAX_LINK_BYTES, from_fragment, to_fragment};
+pub use text::{FORMAT_VERSION, MAX_TEXT_BYTES, TextError, from_text, to_compact_text, to_text};
+pub use validate::Defect;

@@ -1,0 +1,159 @@
+//! The document: the control specification that *is* the model. The mesh on screen is only its
+//! current approximation (Welch 1995, sections 3.2 and 4.3).
+//!
+//! Points are placed; curves pass through points in order and are fair in between; a surface has a
+//! topology, given by a *skeleton* (the "dehydrated" mesh of thesis section 5.2), and controls that it
+//! must meet. All lengths are model units.
+
+use crate::id::{CurveId, PointId, SurfaceId};
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Largest absolute value of a coordinate that a document may hold, in model units.
+///
+/// Beyond it the square of a length times the square of a curvature loses the digits the solver needs.
+pub const MAX_COORDINATE: f64 = 1e6;
+
+/// A whole model, as its designer specified it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Document {
+    /// What the designer calls it.
+    pub name: String,
+    /// What the surfaces minimise.
+    pub objective: Objective,
+    /// Target edge length of the approximating mesh, in model units; `None` leaves it to the modeler.
+    pub spacing: Option<f64>,
+    /// The control points.
+    pub points: BTreeMap<PointId, DVec3>,
+    /// The control curves.
+    pub curves: BTreeMap<CurveId, Curve>,
+    /// The surfaces.
+    pub surfaces: BTreeMap<SurfaceId, Surface>,
+}
+
+/// What a fair shape minimises.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Objective {
+    /// The integral of the sum of squared principal curvatures, thesis eq. (4.2).
+    #[default]
+    ThinPlate,
+}
+
+/// A fair curve through control points, in order.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Curve {
+    /// The points that it passes through: at least 2, or 3 if it is closed.
+    pub through: Vec<PointId>,
+    /// Whether it returns from the last point to the first.
+    #[serde(default, skip_serializing_if = "core::ops::Not::not")]
+    pub closed: bool,
+}
+
+/// A fair surface under its controls.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Surface {
+    /// Its topology and the place of its controls in it.
+    pub skeleton: Skeleton,
+    /// Target edge length where it differs from the document's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spacing: Option<f64>,
+}
+
+/// A minimal triangulation of a surface: the least that still has its topology and all of its controls.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Skeleton {
+    /// The vertices.
+    pub vertices: Vec<SkeletonVertex>,
+    /// Corners of the triangles, indices into `vertices`. Windings may disagree: a Möbius strip is welcome.
+    pub triangles: Vec<[u32; 3]>,
+    /// The control curves that lie in this surface, on its boundary or inside it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub curves: Vec<Embedding>,
+}
+
+/// A vertex of a skeleton.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum SkeletonVertex {
+    /// A control point that the surface must pass through.
+    Control(PointId),
+    /// A vertex that only the topology needs; its position is a hint where to start from.
+    Free(DVec3),
+}
+
+/// A control curve in a surface: the surface follows it (shadowing, thesis section 7.3.3).
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Embedding {
+    /// The curve that is followed.
+    pub curve: CurveId,
+    /// Where it runs in the skeleton, vertex by vertex along edges, in the curve's own sense.
+    pub along: Vec<u32>,
+}
+
+impl Document {
+    /// The smallest identity that no point has yet and that lies above all those in use.
+    #[must_use]
+    pub fn next_point(&self) -> PointId {
+        PointId(self.points.last_key_value().map_or(1, |(id, _)| id.0.saturating_add(1)))
+    }
+
+    /// As [`Self::next_point`], for curves.
+    #[must_use]
+    pub fn next_curve(&self) -> CurveId {
+        CurveId(self.curves.last_key_value().map_or(1, |(id, _)| id.0.saturating_add(1)))
+    }
+
+    /// As [`Self::next_point`], for surfaces.
+    #[must_use]
+    pub fn next_surface(&self) -> SurfaceId {
+        SurfaceId(self.surfaces.last_key_value().map_or(1, |(id, _)| id.0.saturating_add(1)))
+    }
+
+    /// The curves that pass through a point, in order of identity.
+    pub fn curves_through(&self, point: PointId) -> impl Iterator<Item = CurveId> + '_ {
+        self.curves.iter().filter(move |(_, curve)| curve.through.contains(&point)).map(|(id, _)| *id)
+    }
+
+    /// The surfaces that follow a curve, in order of identity.
+    pub fn surfaces_on(&self, curve: CurveId) -> impl Iterator<Item = SurfaceId> + '_ {
+        self.surfaces
+            .iter()
+            .filter(move |(_, surface)| surface.skeleton.curves.iter().any(|e| e.curve == curve))
+            .map(|(id, _)| *id)
+    }
+
+    /// The surfaces that pass through a point, in order of identity.
+    pub fn surfaces_through(&self, point: PointId) -> impl Iterator<Item = SurfaceId> + '_ {
+        self.surfaces
+            .iter()
+            .filter(move |(_, surface)| surface.skeleton.vertices.contains(&SkeletonVertex::Control(point)))
+            .map(|(id, _)| *id)
+    }
+
+    /// Half the diagonal of the box around all points and free skeleton vertices, and its centre.
+    ///
+    /// Zero for an empty document.
+    #[must_use]
+    pub fn extent(&self) -> (DVec3, f64) {
+        let free = self.surfaces.values().flat_map(|s| &s.skeleton.vertices).filter_map(|v| match v {
+            SkeletonVertex::Free(at) => Some(at),
+            SkeletonVertex::Control(_) => None,
+        });
+        let mut low = DVec3::INFINITY;
+        let mut high = DVec3::NEG_INFINITY;
+        for at in self.points.values().chain(free) {
+            low = low.min(*at);
+            high = high.max(*at);
+        }
+        if low.x > high.x {
+            return (DVec3::ZERO, 0.0);
+        }
+        ((low + high) * 0.5, (high - low).length() * 0.5)
+    }
+}

@@ -1,0 +1,133 @@
+//! The acts of a designer. One word = one variant = one file in the modeler's `operation/` = one word of
+//! the command line = one label on the page.
+
+use crate::id::{CurveId, PointId, SurfaceId};
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+/// An act that changes the document. Each is one step of undo; a refused one changes nothing.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Edit {
+    /// Places a control point in space.
+    Point {
+        /// Where.
+        at: DVec3,
+    },
+    /// Moves a control point, and everything that hangs on it.
+    Move {
+        /// Which point.
+        point: PointId,
+        /// Where to.
+        to: DVec3,
+    },
+    /// Makes a fair curve through points, in order.
+    Curve {
+        /// The points: at least 2, or 3 for a closed curve.
+        through: Vec<PointId>,
+        /// Whether it closes.
+        closed: bool,
+    },
+    /// Places points and makes the curve through them, as one act.
+    Draw {
+        /// Where the points are.
+        at: Vec<DVec3>,
+        /// Whether the curve closes.
+        closed: bool,
+    },
+    /// Skins a closed curve (thesis section 7.3.2, `sheet`).
+    Sheet {
+        /// The boundary.
+        boundary: CurveId,
+    },
+    /// Skins the space between two closed curves: a cylinder (thesis section 7.3.2, `sweep`).
+    Sweep {
+        /// One end.
+        from: CurveId,
+        /// The other end.
+        to: CurveId,
+    },
+    /// Makes a control point on a surface, at the place nearest to a given one.
+    Pin {
+        /// Which surface.
+        surface: SurfaceId,
+        /// Where, roughly.
+        at: DVec3,
+    },
+    /// Makes a control point on a curve, at the place nearest to a given one.
+    Insert {
+        /// Which curve.
+        curve: CurveId,
+        /// Where, roughly.
+        at: DVec3,
+    },
+    /// Lets a control point go: the shape relaxes, the topology stays.
+    Release {
+        /// Which point.
+        point: PointId,
+    },
+    /// Deletes a point that nothing hangs on.
+    DeletePoint {
+        /// Which point.
+        point: PointId,
+    },
+    /// Deletes a curve that no surface is bounded by, and the points that only it used.
+    DeleteCurve {
+        /// Which curve.
+        curve: CurveId,
+    },
+    /// Deletes a surface and the points that only it used; its curves stay.
+    DeleteSurface {
+        /// Which surface.
+        surface: SurfaceId,
+    },
+    /// Sets the target edge length of the approximation; `None` leaves it to the modeler.
+    Spacing {
+        /// In model units.
+        spacing: Option<f64>,
+    },
+    /// Renames the document.
+    Rename {
+        /// The new name, at most 200 characters.
+        name: String,
+    },
+}
+
+impl Edit {
+    /// What the act is called on the page, for the undo list.
+    #[must_use]
+    pub fn label(&self) -> &'static str {
+        match self {
+            Self::Point { .. } => "Point",
+            Self::Move { .. } => "Move",
+            Self::Curve { .. } | Self::Draw { .. } => "Curve",
+            Self::Sheet { .. } => "Sheet",
+            Self::Sweep { .. } => "Sweep",
+            Self::Pin { .. } | Self::Insert { .. } => "Control point",
+            Self::Release { .. } => "Release",
+            Self::DeletePoint { .. } | Self::DeleteCurve { .. } | Self::DeleteSurface { .. } => "Delete",
+            Self::Spacing { .. } => "Resolution",
+            Self::Rename { .. } => "Rename",
+        }
+    }
+}
+
+/// What a drag takes hold of.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum GrabTarget {
+    /// An existing control point.
+    Point(PointId),
+    /// A place on a curve, which becomes a control point.
+    Curve {
+        /// Which curve.
+        curve: CurveId,
+        /// Where, roughly.
+        at: DVec3,
+    },
+    /// A place on a surface, which becomes a control point.
+    Surface {
+        /// Which surface.
+        surface: SurfaceId,
+        /// Where, roughly.
+        at: DVec3,
+    },
+}

@@ -1,0 +1,124 @@
+//! The messages between page and worker, in order, one reply to each request.
+//!
+//! The page has at most one [`Request::Step`] in flight and sends the next when its reply has come, so a
+//! drag is coalesced by itself: only the newest target rides on the next step. Each reply carries the
+//! newest frame. A refused request leaves the model as it was.
+
+use crate::edit::{Edit, GrabTarget};
+use crate::example::Example;
+use crate::frame::{FrameHeader, Structure};
+use crate::id::PointId;
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+/// What the page asks of the worker.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Request {
+    /// Opens the text of a spec file.
+    OpenText {
+        /// The text.
+        text: String,
+    },
+    /// Opens a share link (a fragment or a whole address).
+    OpenLink {
+        /// The link.
+        link: String,
+    },
+    /// Opens an example.
+    OpenExample(Example),
+    /// Begins again with nothing.
+    New,
+    /// Acts on the document.
+    Edit(Edit),
+    /// Takes hold of something; a place on a curve or surface becomes a control point there.
+    Grab(GrabTarget),
+    /// Relaxes the shape.
+    Step(Step),
+    /// Ends a drag and keeps its result: one act.
+    Drop,
+    /// Ends a drag and puts everything back.
+    Cancel,
+    /// Takes back the last act.
+    Undo,
+    /// Does the last undone act again.
+    Redo,
+    /// Writes the surfaces into a file.
+    Export(ExportFormat),
+    /// Asks for the structure and the document anew, for a page that has just connected.
+    Describe,
+}
+
+/// One step of relaxation.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Step {
+    /// Where the held point should be now, if something is held.
+    pub drag: Option<DVec3>,
+    /// Most conjugate-gradient iterations that the step may spend, at least 1.
+    pub iterations: u32,
+}
+
+/// A format of an exported mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum ExportFormat {
+    /// Wavefront OBJ: positions, normals, triangles.
+    Obj,
+}
+
+/// What the worker answers.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Reply {
+    /// The newest frame; its numbers travel beside the reply.
+    pub frame: FrameHeader,
+    /// What the numbers belong to, when it changed; the indices travel beside the reply.
+    pub structure: Option<Structure>,
+    /// The document, after an act (also after undo and redo).
+    pub committed: Option<Committed>,
+    /// What a grab took hold of.
+    pub grabbed: Option<Grabbed>,
+    /// Why a request was refused.
+    pub refused: Option<Refusal>,
+    /// A file that was asked for.
+    pub exported: Option<Exported>,
+}
+
+/// The document after an act.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Committed {
+    /// What was done, in the words of the page: "Sheet", "Undo Sheet".
+    pub act: String,
+    /// The compact text of the document, for the journal and the link.
+    pub document: String,
+    /// Its name.
+    pub name: String,
+    /// What undo would take back, if anything.
+    pub undo: Option<String>,
+    /// What redo would do again, if anything.
+    pub redo: Option<String>,
+}
+
+/// What a grab took hold of.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Grabbed {
+    /// The control point, new or old.
+    pub point: PointId,
+    /// Where it is.
+    pub at: DVec3,
+}
+
+/// Why a request was refused. The model is as it was.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Refusal {
+    /// What was asked, in the words of the page.
+    pub act: String,
+    /// Why it cannot be done and what would help.
+    pub reason: String,
+}
+
+/// A file for the designer.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Exported {
+    /// A name for it.
+    pub name: String,
+    /// What is in it.
+    pub text: String,
+}

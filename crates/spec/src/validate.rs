@@ -1,0 +1,272 @@
+//! What a document must satisfy before anything is built from it: every reference is kept, every number
+//! is in range, every size is within its limit. Whether a skeleton is a manifold is for the mesh to say.
+
+use crate::document::{Curve, Document, MAX_COORDINATE, SkeletonVertex, Surface};
+use crate::id::{CurveId, PointId, SurfaceId};
+use glam::DVec3;
+use std::collections::{BTreeMap, BTreeSet};
+use thiserror::Error;
+
+/// Limits that keep hostile input from exhausting memory; each is far above what a designer makes.
+const MAX_POINTS: usize = 20_000;
+const MAX_CURVES: usize = 5_000;
+const MAX_SURFACES: usize = 500;
+const MAX_TRIANGLES: usize = 100_000;
+const MAX_NAME: usize = 200;
+
+/// Why a document cannot be built.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum Defect {
+    /// There are more things of a kind than a document may hold.
+    #[error("too many {what}: {count}, the limit is {limit}")]
+    TooMany {
+        /// Which kind.
+        what: &'static str,
+        /// How many there are.
+        count: usize,
+        /// How many there may be.
+        limit: usize,
+    },
+    /// The name is too long.
+    #[error("the name has {0} characters, the limit is {MAX_NAME}")]
+    LongName(usize),
+    /// A coordinate is not a number or out of range.
+    #[error("{place}: a coordinate is {value}; it must be a number between -1e6 and 1e6")]
+    Coordinate {
+        /// Where it stands.
+        place: String,
+        /// The offending value.
+        value: f64,
+    },
+    /// A spacing is not a positive number.
+    #[error("{place}: the spacing is {value}; it must be a positive number up to 1e6")]
+    Spacing {
+        /// Where it stands.
+        place: String,
+        /// The offending value.
+        value: f64,
+    },
+    /// A curve has too few points.
+    #[error("{curve} passes through {count} points; it needs at least {needed}")]
+    ShortCurve {
+        /// Which curve.
+        curve: CurveId,
+        /// How many points it has.
+        count: usize,
+        /// How many it needs.
+        needed: usize,
+    },
+    /// A curve passes through a point that does not exist.
+    #[error("{curve} passes through {point}, which does not exist")]
+    CurveWithoutPoint {
+        /// Which curve.
+        curve: CurveId,
+        /// The missing point.
+        point: PointId,
+    },
+    /// A curve passes through a point twice.
+    #[error("{curve} passes through {point} more than once")]
+    CurveMeetsItself {
+        /// Which curve.
+        curve: CurveId,
+        /// The repeated point.
+        point: PointId,
+    },
+    /// A surface names a point that does not exist, or names it twice.
+    #[error("{surface}, vertex {vertex}: {point} {why}")]
+    SurfacePoint {
+        /// Which surface.
+        surface: SurfaceId,
+        /// Index of the vertex.
+        vertex: usize,
+        /// The point in question.
+        point: PointId,
+        /// What is wrong with it.
+        why: &'static str,
+    },
+    /// A triangle refers to a vertex that does not exist or repeats one.
+    #[error("{surface}, triangle {triangle}: corner {corner} {why}")]
+    Triangle {
+        /// Which surface.
+        surface: SurfaceId,
+        /// Index of the triangle.
+        triangle: usize,
+        /// The offending vertex index.
+        corner: u32,
+        /// What is wrong with it.
+        why: &'static str,
+    },
+    /// A surface has no triangle.
+    #[error("{0} has no triangles")]
+    EmptySurface(SurfaceId),
+    /// A curve cannot lie in a surface as stated.
+    #[error("{surface}: {curve} {why}")]
+    Embedding {
+        /// Which surface.
+        surface: SurfaceId,
+        /// Which curve.
+        curve: CurveId,
+        /// What is wrong.
+        why: String,
+    },
+}
+
+impl Document {
+    /// Checks everything that can be checked without building the model.
+    ///
+    /// # Errors
+    /// The first [`Defect`] found, in the order of the document.
+    pub fn validate(&self) -> Result<(), Defect> {
+        limit("points", self.points.len(), MAX_POINTS)?;
+        limit("curves", self.curves.len(), MAX_CURVES)?;
+        limit("surfaces", self.surfaces.len(), MAX_SURFACES)?;
+        let triangles = self.surfaces.values().map(|s| s.skeleton.triangles.len()).sum();
+        limit("triangles", triangles, MAX_TRIANGLES)?;
+        let vertices = self.surfaces.values().map(|s| s.skeleton.vertices.len()).sum();
+        limit("skeleton vertices", vertices, MAX_TRIANGLES)?;
+        let name = self.name.chars().count();
+        if name > MAX_NAME {
+            return Err(Defect::LongName(name));
+        }
+        spacing("document", self.spacing)?;
+        for (id, at) in &self.points {
+            coordinate(&id.to_string(), *at)?;
+        }
+        for (id, curve) in &self.curves {
+            validate_curve(*id, curve, &self.points)?;
+        }
+        for (id, surface) in &self.surfaces {
+            validate_surface(*id, surface, self)?;
+        }
+        Ok(())
+    }
+}
+
+fn limit(what: &'static str, count: usize, limit: usize) -> Result<(), Defect> {
+    if count > limit { Err(Defect::TooMany { what, count, limit }) } else { Ok(()) }
+}
+
+fn spacing(place: &str, value: Option<f64>) -> Result<(), Defect> {
+    match value {
+        Some(value) if !(value.is_finite() && value > 0.0 && value <= MAX_COORDINATE) => {
+            Err(Defect::Spacing { place: place.to_owned(), value })
+        }
+        _ => Ok(()),
+    }
+}
+
+fn coordinate(place: &str, at: DVec3) -> Result<(), Defect> {
+    match at.to_array().into_iter().find(|x| !(x.is_finite() && x.abs() <= MAX_COORDINATE)) {
+        Some(value) => Err(Defect::Coordinate { place: place.to_owned(), value }),
+        None => Ok(()),
+    }
+}
+
+fn validate_curve(id: CurveId, curve: &Curve, points: &BTreeMap<PointId, DVec3>) -> Result<(), Defect> {
+    let needed = if curve.closed { 3 } else { 2 };
+    if curve.through.len() < needed {
+        return Err(Defect::ShortCurve { curve: id, count: curve.through.len(), needed });
+    }
+    let mut seen = BTreeSet::new();
+    for point in &curve.through {
+        if !points.contains_key(point) {
+            return Err(Defect::CurveWithoutPoint { curve: id, point: *point });
+        }
+        if !seen.insert(*point) {
+            return Err(Defect::CurveMeetsItself { curve: id, point: *point });
+        }
+    }
+    Ok(())
+}
+
+fn validate_surface(id: SurfaceId, surface: &Surface, document: &Document) -> Result<(), Defect> {
+    spacing(&id.to_string(), surface.spacing)?;
+    let skeleton = &surface.skeleton;
+    let mut seen = BTreeSet::new();
+    for (index, vertex) in skeleton.vertices.iter().enumerate() {
+        match vertex {
+            SkeletonVertex::Free(at) => coordinate(&format!("{id}, vertex {index}"), *at)?,
+            SkeletonVertex::Control(point) => {
+                let refuse = |why| Defect::SurfacePoint { surface: id, vertex: index, point: *point, why };
+                if !document.points.contains_key(point) {
+                    return Err(refuse("does not exist"));
+                }
+                if !seen.insert(*point) {
+                    return Err(refuse("is already another vertex"));
+                }
+            }
+        }
+    }
+    if skeleton.triangles.is_empty() {
+        return Err(Defect::EmptySurface(id));
+    }
+    for (index, corners) in skeleton.triangles.iter().enumerate() {
+        let refuse = |corner, why| Defect::Triangle { surface: id, triangle: index, corner, why };
+        if let Some(corner) = corners.iter().find(|c| **c as usize >= skeleton.vertices.len()) {
+            return Err(refuse(*corner, "does not exist"));
+        }
+        if corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0] {
+            return Err(refuse(corners[0], "or another one is repeated"));
+        }
+    }
+    validate_embeddings(id, surface, document)
+}
+
+fn validate_embeddings(id: SurfaceId, surface: &Surface, document: &Document) -> Result<(), Defect> {
+    let skeleton = &surface.skeleton;
+    let edges: BTreeSet<[u32; 2]> = skeleton
+        .triangles
+        .iter()
+        .flat_map(|t| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]])
+        .map(sorted)
+        .collect();
+    let mut taken = BTreeSet::new();
+    for embedding in &skeleton.curves {
+        let refuse = |why: String| Defect::Embedding { surface: id, curve: embedding.curve, why };
+        let Some(curve) = document.curves.get(&embedding.curve) else {
+            return Err(refuse("does not exist".into()));
+        };
+        let along = &embedding.along;
+        if let Some(vertex) = along.iter().find(|v| **v as usize >= skeleton.vertices.len()) {
+            return Err(refuse(format!("runs through vertex {vertex}, which does not exist")));
+        }
+        if along.iter().collect::<BTreeSet<_>>().len() != along.len() {
+            return Err(refuse("runs through a vertex twice".into()));
+        }
+        let controls: Vec<PointId> = along
+            .iter()
+            .filter_map(|v| match skeleton.vertices[*v as usize] {
+                SkeletonVertex::Control(point) => Some(point),
+                SkeletonVertex::Free(_) => None,
+            })
+            .collect();
+        if controls != curve.through
+            || along.first().map(|v| skeleton.vertices[*v as usize])
+                != Some(SkeletonVertex::Control(curve.through[0]))
+        {
+            return Err(refuse("does not run through its own points in its own order".into()));
+        }
+        if !curve.closed
+            && !matches!(
+                along.last().map(|v| skeleton.vertices[*v as usize]),
+                Some(SkeletonVertex::Control(_))
+            )
+        {
+            return Err(refuse("does not end at its last point".into()));
+        }
+        let closing = curve.closed.then(|| [along[along.len() - 1], along[0]]);
+        for pair in along.windows(2).map(|w| [w[0], w[1]]).chain(closing) {
+            if !edges.contains(&sorted(pair)) {
+                return Err(refuse(format!("has no edge from vertex {} to vertex {}", pair[0], pair[1])));
+            }
+            if !taken.insert(sorted(pair)) {
+                return Err(refuse(format!("shares the edge from vertex {} to vertex {}", pair[0], pair[1])));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn sorted(pair: [u32; 2]) -> [u32; 2] {
+    [pair[0].min(pair[1]), pair[0].max(pair[1])]
+}
