@@ -1,0 +1,139 @@
+//! Running every test and adding up.
+
+use crate::place;
+use crate::project;
+use crate::shell::{Run, step};
+use crate::tally::Tally;
+use crate::tools;
+use crate::web;
+use std::fs;
+
+/// How much to run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Extent {
+    /// Native tests, wasm tests in the browser, the built page in the browser.
+    Everything,
+    /// Native tests only.
+    WithoutBrowser,
+}
+
+/// Seconds that one wasm test, or one end-to-end test, may take: a software rasteriser on a busy machine is slow.
+const WASM_TEST_LIMIT: &str = "120";
+const PAGE_TEST_LIMIT: &str = "--test-timeout=180000";
+
+/// `cargo xtask test`: the last line is the total.
+pub(crate) fn run(extent: Extent) -> Result<(), String> {
+    let tally = suites(extent);
+    conclude(tally)
+}
+
+/// Print the total, alone on the last line. The error is empty, since nothing may follow that line.
+pub(crate) fn conclude(tally: Tally) -> Result<(), String> {
+    println!("\n{tally}");
+    if tally.failed == 0 { Ok(()) } else { Err(String::new()) }
+}
+
+/// Run the suites one after the other, all of them even when one fails.
+pub(crate) fn suites(extent: Extent) -> Tally {
+    let mut tally = native();
+    if extent == Extent::Everything {
+        match tools::ensure(tools::ALL) {
+            Ok(()) => {
+                tally += wasm();
+                tally += page();
+            }
+            Err(message) => tally += broken("the tests in the browser cannot run", &message),
+        }
+    }
+    tally
+}
+
+/// Unit, property, fixture and documentation tests.
+fn native() -> Tally {
+    counted("native tests", || Ok(Run::cargo().args(["test", "--workspace", "--locked", "--no-fail-fast"])))
+}
+
+/// The `tests/wasm_*.rs` of all members, in the page and in workers of a headless Chromium.
+fn wasm() -> Tally {
+    let packages = match project::packages() {
+        Ok(packages) => packages,
+        Err(message) => return broken("the wasm tests cannot be listed", &message),
+    };
+    let has_wasm_tests =
+        |package: &&project::Package| package.tests.iter().any(|test| test.starts_with("wasm_"));
+    let selection: Vec<String> = packages
+        .iter()
+        .filter(has_wasm_tests)
+        .flat_map(|package| ["-p".to_owned(), package.name.clone()])
+        .collect();
+    if selection.is_empty() {
+        println!("\n== wasm tests: there are none");
+        return Tally::default();
+    }
+    counted("wasm tests", || {
+        let (settings, driver) = tools::webdriver()?;
+        Ok(Run::cargo()
+            .args([
+                "test",
+                "--target",
+                "wasm32-unknown-unknown",
+                "--locked",
+                "--no-fail-fast",
+                "--test",
+                "wasm_*",
+            ])
+            .args(&selection)
+            .env("CHROMEDRIVER", driver)
+            .env("WASM_BINDGEN_TEST_WEBDRIVER_JSON", settings)
+            .env("WASM_BINDGEN_TEST_TIMEOUT", WASM_TEST_LIMIT))
+    })
+}
+
+/// The release build of the page, driven by the end-to-end tests.
+fn page() -> Tally {
+    let page = place::tested_page();
+    if let Err(message) = web::build(&page) {
+        return broken("the page cannot be built", &message);
+    }
+    counted("end-to-end tests", || {
+        let mut files: Vec<String> = fs::read_dir(place::browser_tests())
+            .map_err(|error| error.to_string())?
+            .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+            .filter(|name| name.ends_with(".test.mjs"))
+            .collect();
+        files.sort();
+        let browser = tools::chromium().ok_or("no Chromium found")?;
+        // One file at a time: the software rasteriser takes a whole core and more.
+        Ok(Run::new("node")
+            .args(["--test", "--test-reporter=spec", "--test-concurrency=1", PAGE_TEST_LIMIT])
+            .args(files)
+            .within(&place::browser_tests())
+            .env("CHROME", browser)
+            .env("DUCTILE_PAGE", page))
+    })
+}
+
+/// Run a test runner, show what it says, and count. One that fails without naming a failed test counts as one failure.
+fn counted(title: &str, prepare: impl FnOnce() -> Result<Run, String>) -> Tally {
+    step(title, || {
+        let mut tally = Tally::default();
+        let outcome = prepare().and_then(|run| {
+            run.lines(|line| {
+                println!("{line}");
+                tally += Tally::of_line(line);
+            })
+        });
+        match outcome {
+            Err(message) if tally.failed == 0 => tally += broken(title, &message),
+            Ok(()) if tally.passed == 0 => tally += broken(title, "no test ran"),
+            _ => (),
+        }
+        tally
+    })
+}
+
+/// A failure that is not a test's own.
+pub(crate) fn broken(title: &str, message: &str) -> Tally {
+    println!("FAILED: {title}: {message}");
+    Tally { passed: 0, failed: 1 }
+}
