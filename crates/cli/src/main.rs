@@ -1,3 +1,59 @@
-//! Headless: solve, check, link, unlink.
+//! `ductile`: the modeler without a window. Specification in, mesh and numbers out.
+//!
+//! Exit status: 0 when it worked, 1 when the shape did not come to rest, 2 when the input or the command is bad.
+//! Results go to standard output or files, everything else to standard error.
 
-fn main() {}
+mod check;
+mod input;
+mod link;
+mod solve;
+
+use clap::{Parser, Subcommand};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Fair surfaces from control specifications, headless.
+#[derive(Debug, Parser)]
+#[command(name = "ductile", version, about, disable_help_subcommand = true)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Relax a specification to rest and write the mesh
+    Solve(solve::Options),
+    /// Check that a file is a specification that can be built
+    Check {
+        /// Spec file, or - for standard input
+        file: PathBuf,
+    },
+    /// Print the share link of a specification
+    Link {
+        /// Spec file, or - for standard input
+        spec: PathBuf,
+        /// Address of the page, put before the link
+        #[arg(long, default_value = "")]
+        base: String,
+    },
+    /// Print the specification that a share link holds
+    Unlink {
+        /// A link, a fragment, or - for standard input
+        link: String,
+    },
+}
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let outcome = match arguments.command {
+        Command::Solve(options) => solve::run(&options),
+        Command::Check { file } => check::run(&file).map(|()| ExitCode::SUCCESS),
+        Command::Link { spec, base } => link::link(&spec, &base).map(|()| ExitCode::SUCCESS),
+        Command::Unlink { link } => link::unlink(&link).map(|()| ExitCode::SUCCESS),
+    };
+    outcome.unwrap_or_else(|error| {
+        eprintln!("ductile: {error}");
+        ExitCode::from(2)
+    })
+}

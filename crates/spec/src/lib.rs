@@ -29,3 +29,6 @@ pub use protocol::{Committed, ExportFormat, Exported, Grabbed, Refusal, Reply, R
 pub use share::{FRAGMENT_KEY, LinkError, MAX_LINK_BYTES, from_fragment, to_fragment};
 pub use text::{FORMAT_VERSION, MAX_TEXT_BYTES, TextError, from_text, to_compact_text, to_text};
 pub use validate::Defect;
+
+#[cfg(test)]
+mod tests;

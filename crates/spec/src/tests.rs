@@ -1,0 +1,137 @@
+//! Round trips are exact; damage of any kind is refused with its place; nothing panics.
+
+use crate::*;
+use glam::{DVec3, dvec3};
+use proptest::prelude::*;
+
+fn sample() -> Document {
+    let mut document = Document { name: "A “name”\n".into(), spacing: Some(0.1), ..Document::default() };
+    for (id, at) in [(1, dvec3(0.1 + 0.2, -1e-7, 1.0 / 3.0)), (2, DVec3::X), (3, DVec3::Y), (7, DVec3::Z)] {
+        document.points.insert(PointId(id), at);
+    }
+    let through = vec![PointId(1), PointId(2), PointId(3)];
+    document.curves.insert(CurveId(4), Curve { through, closed: true });
+    let vertices = [1, 2, 3, 7].map(|id| SkeletonVertex::Control(PointId(id))).into_iter();
+    let skeleton = Skeleton {
+        vertices: vertices.chain([SkeletonVertex::Free(dvec3(0.5, 0.25, 2.0))]).collect(),
+        triangles: vec![[0, 1, 3], [1, 2, 3], [2, 0, 4], [0, 3, 4], [3, 2, 4]],
+        curves: vec![Embedding { curve: CurveId(4), along: vec![0, 1, 2] }],
+    };
+    document.surfaces.insert(SurfaceId(2), Surface { skeleton, spacing: Some(0.05) });
+    document
+}
+
+#[test]
+fn a_document_survives_text_and_link_to_the_bit() {
+    let document = sample();
+    document.validate().unwrap();
+    for text in [to_text(&document), to_compact_text(&document)] {
+        let back = from_text(&text).unwrap();
+        assert_eq!(back, document);
+        assert_eq!(back.points[&PointId(1)].x.to_bits(), (0.1_f64 + 0.2).to_bits());
+    }
+    let fragment = to_fragment(&document);
+    assert_eq!(from_fragment(&fragment).unwrap(), document);
+    assert_eq!(from_fragment(&format!("https://example.org/ductile/?x=1#{fragment}")).unwrap(), document);
+}
+
+#[test]
+fn readable_text_has_a_line_for_each_thing() {
+    let text = to_text(&sample());
+    assert!(text.contains("\n    \"2\": [1.0,0.0,0.0]"), "{text}");
+    assert!(text.starts_with("{\n  \"ductile\": 1,\n"), "{text}");
+}
+
+#[test]
+fn newer_documents_and_links_are_named_as_such() {
+    let newer = r#"{"ductile": 2, "points": {}, "voxels": []}"#;
+    assert_eq!(from_text(newer), Err(TextError::Newer { found: 2 }));
+    assert_eq!(from_fragment("#d2=AAAA"), Err(LinkError::Newer("d2".into())));
+    assert_eq!(from_fragment("https://example.org/"), Err(LinkError::Missing));
+}
+
+#[test]
+fn bad_text_is_refused_with_its_place() {
+    let refuse = |text: &str| from_text(text).unwrap_err().to_string();
+    assert!(refuse("").contains("line 1"), "{}", refuse(""));
+    assert!(refuse("{\n\"ductile\": 1,\n\"points\": {\"1\": [0,0]}}").contains("line 3"));
+    assert!(refuse(r#"{"ductile":1,"points":{},"extra":0}"#).contains("unknown field `extra`"));
+    assert!(
+        refuse(r#"{"ductile":1,"points":{"1":[0,0,0],"1":[1,1,1]}}"#).contains("point 1 is defined twice")
+    );
+    assert!(refuse(r#"{"ductile":1,"points":{"1":[0,0,2e6]}}"#).contains("point 1"));
+    assert!(refuse(r#"{"ductile":1,"points":{"1":[0,0,1e999]}}"#).contains("line 1"));
+    assert!(refuse(r#"{"ductile":1,"points":{},"spacing":0}"#).contains("spacing is 0"));
+    assert!(refuse(&"[".repeat(100_000)).contains("line 1"));
+    assert!(matches!(from_text(&" ".repeat(MAX_TEXT_BYTES + 1)), Err(TextError::TooLong(_))));
+}
+
+#[test]
+fn every_broken_reference_is_named() {
+    let broken = |change: &dyn Fn(&mut Document)| {
+        let mut document = sample();
+        change(&mut document);
+        from_text(&to_text(&document)).unwrap_err().to_string()
+    };
+    let surface = |d: &mut Document| d.surfaces.get_mut(&SurfaceId(2)).unwrap().skeleton.clone();
+    let with = |d: &mut Document, s: Skeleton| d.surfaces.get_mut(&SurfaceId(2)).unwrap().skeleton = s;
+    let edit = |f: fn(&mut Skeleton)| {
+        broken(&move |d| {
+            let mut s = surface(d);
+            f(&mut s);
+            with(d, s);
+        })
+    };
+    assert!(broken(&|d| drop(d.points.remove(&PointId(3)))).contains("point 3, which does not exist"));
+    assert!(broken(&|d| drop(d.curves.remove(&CurveId(4)))).contains("curve 4 does not exist"));
+    assert!(edit(|s| s.triangles[0][0] = 9).contains("corner 9 does not exist"));
+    assert!(edit(|s| s.triangles[0][0] = s.triangles[0][1]).contains("repeated"));
+    assert!(edit(|s| s.triangles.clear()).contains("no triangles"));
+    assert!(edit(|s| s.vertices[1] = s.vertices[0]).contains("already another vertex"));
+    assert!(edit(|s| s.curves[0].along = vec![0, 2, 1]).contains("own order"));
+    assert!(edit(|s| s.curves[0].along = vec![0, 1]).contains("own order"));
+    assert!(edit(|s| s.curves[0].along = vec![0, 1, 77]).contains("vertex 77"));
+    assert!(edit(|s| s.triangles.retain(|t| *t != [0, 1, 3])).contains("no edge from vertex 0 to vertex 1"));
+    assert!(broken(&|d| d.curves.get_mut(&CurveId(4)).unwrap().through.truncate(2)).contains("at least 3"));
+}
+
+#[test]
+fn a_link_bomb_is_refused_before_it_unpacks() {
+    use base64::Engine as _;
+    let bomb = miniz_oxide::deflate::compress_to_vec_zlib(&vec![b' '; 64 << 20], 6);
+    let link = format!("d1={}", base64::engine::general_purpose::URL_SAFE_NO_PAD.encode(bomb));
+    assert!(matches!(from_fragment(&link), Err(LinkError::Damaged(_))), "{:?}", from_fragment(&link).err());
+    assert!(matches!(from_fragment(&"x".repeat(MAX_LINK_BYTES + 1)), Err(LinkError::TooLong(_))));
+}
+
+proptest! {
+    #[test]
+    fn a_cut_or_changed_link_is_refused_or_still_a_document(at in 0_usize..1000, with in 0_u8..128) {
+        let whole = to_fragment(&sample());
+        let cut = &whole[..at.min(whole.len() - 1)];
+        prop_assert!(from_fragment(cut).is_err(), "a link cut at {at} was accepted");
+        let mut bytes = whole.clone().into_bytes();
+        let place = at % bytes.len();
+        bytes[place] = with;
+        if let Ok(document) = from_fragment(&String::from_utf8_lossy(&bytes)) {
+            document.validate().unwrap();
+        }
+    }
+
+    #[test]
+    fn any_coordinates_round_trip(x in -1e6..1e6_f64, y in -1.0..1.0_f64, z in prop::num::f64::NORMAL) {
+        let z = if z.abs() <= MAX_COORDINATE { z } else { 0.5 };
+        let mut document = sample();
+        document.points.insert(PointId(1), dvec3(x, y, z));
+        let back = from_fragment(&to_fragment(&document)).unwrap();
+        let [a, b] = [&document, &back].map(|d| d.points[&PointId(1)].to_array().map(f64::to_bits));
+        prop_assert_eq!(a, b);
+    }
+
+    #[test]
+    fn any_text_is_refused_or_a_valid_document(text in ".{0,200}") {
+        if let Ok(document) = from_text(&text) {
+            document.validate().unwrap();
+        }
+    }
+}

@@ -1,1 +1,0 @@
-//! The web worker: decode, handle, encode.
