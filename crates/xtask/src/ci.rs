@@ -5,7 +5,7 @@ use crate::place;
 use crate::shell::{Run, step};
 use crate::sizes;
 use crate::tally::Tally;
-use crate::test::{self, Extent};
+use crate::test;
 use crate::tools;
 use crate::web;
 
@@ -28,13 +28,13 @@ pub(crate) fn run() -> Result<(), String> {
         Run::cargo().args(what).args(how).attached()
     });
     tally += check("documentation", || {
-        let arguments = ["doc", "--workspace", "--no-deps", "--document-private-items", "--locked"];
+        let arguments = ["doc", "--workspace", "--no-deps", "--locked"];
         Run::cargo().args(arguments).env("RUSTDOCFLAGS", "-D warnings").attached()
     });
     tally +=
         optional("licences and bans", "cargo-deny", &["--config", ".deny.toml", "check", "bans", "licenses"]);
     tally += optional("spelling", "typos", &["--config", ".typos.toml"]);
-    tally += test::suites(Extent::Everything);
+    tally += test::suites(test::ALL);
     tally += check("size of the page", || web::report_size(&place::tested_page()));
     test::conclude(tally)
 }

@@ -27,6 +27,7 @@ cargo xtask COMMAND
 
   serve [--release] [--port N] [--open]   build the page and serve it; rebuild on every change
   test [--quick]                          run every test; --quick leaves out the browser
+  test native|wasm|page ...               run only the tests of that kind
   web                                     build the page for release into dist and report its size
   doctor                                  say which tools are missing, and how to get them
   tools                                   install the tools that are missing
@@ -42,8 +43,7 @@ fn main() -> ExitCode {
         Some((&"serve", options)) => {
             web::ServeOptions::parse(options).and_then(|options| web::serve(&options))
         }
-        Some((&"test", [])) => test::run(test::Extent::Everything),
-        Some((&"test", ["--quick"])) => test::run(test::Extent::WithoutBrowser),
+        Some((&"test", options)) => test::run(options),
         Some((&"web", [])) => web::release(),
         Some((&"doctor", [])) => tools::doctor(),
         Some((&"tools", [])) => tools::ensure(tools::ALL).map(drop),

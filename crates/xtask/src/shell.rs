@@ -62,6 +62,18 @@ impl Run {
         verdict(&self.name, status)
     }
 
+    /// Become that program where the system can: what ends us then ends it. Returns only when it fails.
+    #[cfg(unix)]
+    pub(crate) fn replace(mut self) -> Result<(), String> {
+        let error = std::os::unix::process::CommandExt::exec(&mut self.command);
+        Err(self.not_started(&error))
+    }
+
+    #[cfg(not(unix))]
+    pub(crate) fn replace(self) -> Result<(), String> {
+        self.attached()
+    }
+
     /// Run it and hand over every line of both its output streams, in order, while it runs.
     pub(crate) fn lines(mut self, mut on_line: impl FnMut(&str)) -> Result<(), String> {
         let (reader, writer) = io::pipe().map_err(|error| error.to_string())?;
@@ -120,4 +132,28 @@ pub(crate) fn step<T>(title: &str, work: impl FnOnce() -> T) -> T {
         println!("== {title}: {seconds} s");
     }
     outcome
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Run;
+
+    #[test]
+    fn both_streams_are_heard_and_failure_is_told() {
+        let mut heard = Vec::new();
+        let outcome = Run::cargo().args(["--version"]).lines(|line| heard.push(line.to_owned()));
+        assert_eq!(outcome, Ok(()));
+        assert!(heard[0].starts_with("cargo "));
+
+        heard.clear();
+        let outcome = Run::cargo().args(["no-such-command"]).lines(|line| heard.push(line.to_owned()));
+        assert!(outcome.is_err());
+        assert!(!heard.is_empty());
+    }
+
+    #[test]
+    fn what_is_absent_does_not_answer() {
+        assert_eq!(Run::new("no-such-program-anywhere").answer(), None);
+        assert!(Run::new("no-such-program-anywhere").attached().is_err());
+    }
 }

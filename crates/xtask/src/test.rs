@@ -8,23 +8,37 @@ use crate::tools;
 use crate::web;
 use std::fs;
 
-/// How much to run.
+/// One of the three kinds of tests.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Extent {
-    /// Native tests, wasm tests in the browser, the built page in the browser.
-    Everything,
-    /// Native tests only.
-    WithoutBrowser,
+pub(crate) enum Suite {
+    /// Unit, property, fixture and documentation tests.
+    Native,
+    /// The `tests/wasm_*.rs` of all members, in the page and in workers of a headless Chromium.
+    Wasm,
+    /// The release build of the page, driven by the end-to-end tests.
+    Page,
 }
+
+/// Every test.
+pub(crate) const ALL: &[Suite] = &[Suite::Native, Suite::Wasm, Suite::Page];
 
 /// Seconds that one wasm test, or one end-to-end test, may take: a software rasteriser on a busy machine is slow.
 const WASM_TEST_LIMIT: &str = "120";
 const PAGE_TEST_LIMIT: &str = "--test-timeout=180000";
 
 /// `cargo xtask test`: the last line is the total.
-pub(crate) fn run(extent: Extent) -> Result<(), String> {
-    let tally = suites(extent);
-    conclude(tally)
+pub(crate) fn run(arguments: &[&str]) -> Result<(), String> {
+    conclude(suites(&choose(arguments)?))
+}
+
+fn choose(arguments: &[&str]) -> Result<Vec<Suite>, String> {
+    let suite = |argument: &&str| match *argument {
+        "native" | "--quick" => Ok(Suite::Native),
+        "wasm" => Ok(Suite::Wasm),
+        "page" => Ok(Suite::Page),
+        _ => Err(format!("test does not know `{argument}`: --quick, or one or more of native, wasm, page")),
+    };
+    if arguments.is_empty() { Ok(ALL.to_vec()) } else { arguments.iter().map(suite).collect() }
 }
 
 /// Print the total, alone on the last line. The error is empty, since nothing may follow that line.
@@ -34,26 +48,31 @@ pub(crate) fn conclude(tally: Tally) -> Result<(), String> {
 }
 
 /// Run the suites one after the other, all of them even when one fails.
-pub(crate) fn suites(extent: Extent) -> Tally {
-    let mut tally = native();
-    if extent == Extent::Everything {
-        match tools::ensure(tools::ALL) {
-            Ok(()) => {
-                tally += wasm();
-                tally += page();
-            }
-            Err(message) => tally += broken("the tests in the browser cannot run", &message),
-        }
+pub(crate) fn suites(chosen: &[Suite]) -> Tally {
+    let mut tally = Tally::default();
+    if chosen.contains(&Suite::Native) {
+        tally += native();
+    }
+    if chosen.iter().all(|suite| *suite == Suite::Native) {
+        return tally;
+    }
+    if let Err(message) = tools::ensure(tools::ALL) {
+        tally += broken("the tests in the browser cannot run", &message);
+        return tally;
+    }
+    if chosen.contains(&Suite::Wasm) {
+        tally += wasm();
+    }
+    if chosen.contains(&Suite::Page) {
+        tally += page();
     }
     tally
 }
 
-/// Unit, property, fixture and documentation tests.
 fn native() -> Tally {
     counted("native tests", || Ok(Run::cargo().args(["test", "--workspace", "--locked", "--no-fail-fast"])))
 }
 
-/// The `tests/wasm_*.rs` of all members, in the page and in workers of a headless Chromium.
 fn wasm() -> Tally {
     let packages = match project::packages() {
         Ok(packages) => packages,
@@ -89,7 +108,6 @@ fn wasm() -> Tally {
     })
 }
 
-/// The release build of the page, driven by the end-to-end tests.
 fn page() -> Tally {
     let page = place::tested_page();
     if let Err(message) = web::build(&page) {
@@ -136,4 +154,17 @@ fn counted(title: &str, prepare: impl FnOnce() -> Result<Run, String>) -> Tally 
 pub(crate) fn broken(title: &str, message: &str) -> Tally {
     println!("FAILED: {title}: {message}");
     Tally { passed: 0, failed: 1 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ALL, Suite, choose};
+
+    #[test]
+    fn suites_are_chosen_by_name() {
+        assert_eq!(choose(&[]).unwrap(), ALL);
+        assert_eq!(choose(&["--quick"]).unwrap(), [Suite::Native]);
+        assert_eq!(choose(&["wasm", "page"]).unwrap(), [Suite::Wasm, Suite::Page]);
+        assert!(choose(&["--fast"]).is_err());
+    }
 }

@@ -47,7 +47,7 @@ pub(crate) fn serve(options: &ServeOptions) -> Result<(), String> {
     arguments.extend(options.release.then_some("--release"));
     arguments.extend(options.open.then_some("--open"));
     println!("Building; the page will be at http://127.0.0.1:{port}/ (Ctrl+C ends).");
-    trunk(&arguments).attached()
+    trunk(&arguments).replace()
 }
 
 /// Build the page for release into `dist`.

@@ -76,13 +76,23 @@ function watch(page, home, complaints) {
 }
 
 /** Waits until the program has been loaded and its inspection function answers. */
-export async function started(page) {
-  await until(page, () => typeof window.wasmBindings?.inspect === "function" && window.wasmBindings.inspect() !== "");
+export async function started(page, { timeout = 60_000 } = {}) {
+  await untilInspect(page, (state) => state !== null, { timeout });
 }
 
-/** What the program says of itself. */
-export async function inspect(page) {
-  return JSON.parse(await page.evaluate(() => window.wasmBindings.inspect()));
+/**
+ * What the program says of itself, or null while it is not running. The loader has imported the same address, so this
+ * is the running program and not a second one.
+ */
+export function inspect(page) {
+  return page.evaluate(async () => {
+    try {
+      const program = await import(new URL("viewer.js", document.baseURI).href);
+      return JSON.parse(program.inspect());
+    } catch {
+      return null;
+    }
+  });
 }
 
 /**

@@ -64,32 +64,38 @@ fn exact_version(program: &str, wanted: &str) -> State {
 /// Without its default feature it has no TLS: it talks to nothing but the browser's driver on this machine.
 pub(super) fn install_bindgen() -> Result<(), String> {
     let version = project::locked_version("wasm-bindgen").ok_or("Cargo.lock names no version of it")?;
+    let programs = ["--bin", "wasm-bindgen", "--bin", "wasm-bindgen-test-runner"];
     cargo_install(
         Tool::WasmBindgen,
-        &["wasm-bindgen-cli", "--version", &version, "--no-default-features"],
-        "1",
+        ["wasm-bindgen-cli", "--version", &version, "--no-default-features"].into_iter().chain(programs),
+        &["walrus", "wasmparser", "wasm-bindgen-cli-support"],
     )
 }
 
 /// Without its default features it neither looks for updates nor downloads tools: we bring them.
 pub(super) fn install_trunk() -> Result<(), String> {
-    cargo_install(
-        Tool::Trunk,
-        &["trunk", "--version", TRUNK_VERSION, "--locked", "--no-default-features"],
-        "0",
-    )
+    let what = ["trunk", "--version", TRUNK_VERSION, "--locked", "--no-default-features"];
+    cargo_install(Tool::Trunk, what, &[])
 }
 
-/// Built fast rather than fast to run: the profiles these programs ship with take three times as long to compile,
-/// and what they do here takes a moment either way.
-fn cargo_install(tool: Tool, what: &[&str], opt_level: &str) -> Result<(), String> {
-    let build = place::tools().join("build").join(what[0]);
+/// Built fast rather than fast to run: the profiles these programs ship with take two to three times as long to
+/// compile, and what they do here takes a moment either way. Packages that would be felt are optimised a little.
+fn cargo_install<'a>(
+    tool: Tool,
+    what: impl IntoIterator<Item = &'a str>,
+    optimised: &[&str],
+) -> Result<(), String> {
+    let build = place::tools().join("build").join(tool.name());
+    let profiles = optimised
+        .iter()
+        .flat_map(|name| ["--config".to_owned(), format!("profile.release.package.{name}.opt-level=1")]);
     let run = Run::cargo()
         .args(["install", "--root"])
         .args([place::tools()])
         .args(what)
+        .args(profiles)
         .env("CARGO_TARGET_DIR", &build)
-        .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", opt_level)
+        .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", "0")
         .env("CARGO_PROFILE_RELEASE_LTO", "off")
         .env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "16")
         .env("CARGO_PROFILE_RELEASE_DEBUG", "false");
