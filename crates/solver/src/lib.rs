@@ -1,1 +1,40 @@
 //! Fair curves and surfaces: energies with exact gradients, predictor, preconditioned conjugate gradients.
+//!
+//! A surface is a triangle mesh over which a quadratic is fitted at every node; its discrete thin-plate energy is
+//! minimised by moving nodes along their fitted normals. Sources: Welch, *Serious Putty*, 1995, chapter 5, and
+//! the project's recipe for it, which replaces the frozen derivatives of the thesis by exact ones.
+//!
+//! Everything is pure numerics over flat arrays: no clock, no threads, no hash maps, `libm` for angles, no fused
+//! multiply-add. The same input gives the same bits on every target.
+
+mod assembly;
+mod barrier;
+mod cg;
+mod component;
+mod dense;
+mod energy;
+mod error;
+mod factor;
+mod fit;
+mod gradient;
+mod harmonic;
+mod laplacian;
+mod line_search;
+mod neighbourhood;
+mod operator;
+mod precondition;
+mod predictor;
+mod rings;
+mod smooth;
+mod surface;
+pub mod workload;
+
+pub use error::{Budget, Settings, SolverError};
+pub use factor::FactorError;
+pub use fit::Curvature;
+pub use harmonic::{Fill, fill};
+pub use laplacian::Weights;
+pub use predictor::Predicted;
+pub use rings::{MAX_RING, RingError, Rings};
+pub use smooth::SmoothReport;
+pub use surface::{StepReport, SurfaceSolver};

@@ -1,0 +1,2 @@
+//! One full step; see `workload`.
+fn main() {}

@@ -1,0 +1,295 @@
+//! Curvature rows of every neighbourhood and the matrix `A = rowsᵀ rows` they make.
+//!
+//! Source: recipe section 4. Per node `k` and component `c` of `L = (L11, √2 L12, L22)`:
+//!
+//! ```text
+//! row = √a [ Σ_j Z_cj (s_kj alpha_j - alpha_k) + (L²)_c alpha_k ]        Z physical, per h²
+//! ```
+//!
+//! `s_kj` is the sense of the spoke: `alpha_j` is measured along the neighbour's own normal, which on a surface that
+//! cannot be oriented points to the other side now and then. There is no factor `n_j·n_k`. Neighbourhoods around
+//! fixed nodes are assembled too; they carry smoothness across control curves. [`Rows::Field`] drops `L²` and the
+//! senses: rows of a scalar field on the surface, which annihilate constants exactly (predictor, section 5).
+
+use crate::fit::{self, Fits};
+use crate::neighbourhood::Spoke;
+use crate::operator::{FIXED, SymmetricMatrix, Unknowns};
+use crate::rings::{MAX_RING, Rings};
+
+/// Relative shift of the diagonal: keeps a truncated solve away from exact singularity.
+const DIAGONAL_SHIFT: f64 = 1e-10;
+
+/// Which unknowns the rows act on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Rows {
+    /// Normal offsets, with the `L²` term.
+    Offset,
+    /// A scalar field.
+    Field,
+}
+
+/// The three rows of one neighbourhood: the centre first, then the spokes.
+type LocalRows = [[f64; 3]; MAX_RING + 1];
+
+/// Writes the rows of `node`; `false` when it has none.
+#[inline]
+fn local_rows(rings: &Rings, fits: &Fits, node: usize, kind: Rows, rows: &mut LocalRows) -> bool {
+    let fit = &fits.nodes[node];
+    if !fit.is_fitted() {
+        return false;
+    }
+    let spokes: &[Spoke] = &fits.spokes[rings.slots(node)];
+    let h = fit.frame.h;
+    let factor = fit.area.sqrt() / (h * h);
+    let mut sum = [0.0; 3];
+    for (j, spoke) in spokes.iter().enumerate() {
+        let basis = fit::basis(spoke, h, rings.is_boundary(node));
+        for c in 0..3 {
+            let weights = &fit.inverse[c + 2];
+            let mut z = 0.0;
+            for i in 0..5 {
+                z += weights[i] * basis[i];
+            }
+            z *= factor;
+            sum[c] += z;
+            rows[j + 1][c] = z;
+        }
+    }
+    rows[0] = sum.map(|sum| -sum);
+    if kind == Rows::Offset {
+        let squared = fit.l_squared();
+        for c in 0..3 {
+            rows[0][c] += fit.area.sqrt() * squared[c];
+        }
+        for (row, &sense) in rows[1..].iter_mut().zip(rings.senses(node)) {
+            for value in row {
+                *value *= sense;
+            }
+        }
+    }
+    true
+}
+
+/// The pattern of `A` and the places its neighbourhoods scatter to.
+#[derive(Clone, Debug)]
+pub(crate) struct Assembly {
+    matrix: SymmetricMatrix,
+    /// Per node where its pairs begin in `places`.
+    starts: Vec<u32>,
+    /// Lower triangle of the local matrix by rows, each entry's place in the values of `matrix`.
+    places: Vec<u32>,
+}
+
+impl Assembly {
+    #[expect(clippy::cast_possible_truncation, reason = "pairs are fewer than 325 per node, checked when rings are made")]
+    pub(crate) fn new(rings: &Rings, unknowns: &Unknowns) -> Self {
+        let mut starts = vec![0_u32];
+        for node in 0..rings.len() {
+            let local = rings.ring(node).len() + 1;
+            starts.push(starts[node] + (local * (local + 1) / 2) as u32);
+        }
+        let mut places = vec![FIXED; starts[rings.len()] as usize];
+        let (mut row_starts, mut columns) = (vec![0_u32], Vec::new());
+        // Where column `j` sits in the row being built; valid while `owner[j]` is that row.
+        let mut owner = vec![FIXED; unknowns.len()];
+        let mut place_of = vec![0_u32; unknowns.len()];
+        for (row, &node) in (0_u32..).zip(&unknowns.nodes) {
+            let first = columns.len();
+            for_star(rings, node, |_, list| {
+                for column in list.map(|node| unknowns.index[node as usize]).filter(|&c| c < row) {
+                    if owner[column as usize] != row {
+                        owner[column as usize] = row;
+                        columns.push(column);
+                    }
+                }
+            });
+            columns[first..].sort_unstable();
+            for (place, &column) in (first as u32..).zip(&columns[first..]) {
+                place_of[column as usize] = place;
+            }
+            row_starts.push(columns.len() as u32);
+            // Tell every neighbourhood that contains this row where its pairs with smaller columns go.
+            for_star(rings, node, |centre, list| {
+                let Some(mine) = list.clone().position(|other| other == node) else { return };
+                for (other, far) in list.enumerate() {
+                    let column = unknowns.index[far as usize];
+                    if column < row {
+                        let (high, low) = (mine.max(other), mine.min(other));
+                        places[starts[centre] as usize + high * (high + 1) / 2 + low] = place_of[column as usize];
+                    }
+                }
+            });
+        }
+        let matrix = SymmetricMatrix::new(row_starts, columns);
+        let mut assembly = Self { matrix, starts, places };
+        assembly.place_diagonal(rings, unknowns);
+        assembly
+    }
+
+    /// Diagonal pairs go behind the triangle; pairs with a fixed node to the last place, which nobody reads.
+    #[expect(clippy::cast_possible_truncation, reason = "as in new")]
+    fn place_diagonal(&mut self, rings: &Rings, unknowns: &Unknowns) {
+        let dropped = (self.matrix.values_mut().len() - 1) as u32;
+        let first = dropped - unknowns.len() as u32;
+        for node in 0..rings.len() {
+            let start = self.starts[node] as usize;
+            for (i, far) in neighbourhood_of(rings, node).enumerate() {
+                let index = unknowns.index[far as usize];
+                if index != FIXED {
+                    self.places[start + i * (i + 1) / 2 + i] = first + index;
+                }
+            }
+        }
+        for place in self.places.iter_mut().filter(|place| **place == FIXED) {
+            *place = dropped;
+        }
+    }
+
+    /// Computes the numbers of `A`; `mass` is added to the diagonal, per unknown.
+    pub(crate) fn assemble(&mut self, rings: &Rings, fits: &Fits, kind: Rows, mass: impl Fn(usize) -> f64) {
+        let values = self.matrix.values_mut();
+        values.fill(0.0);
+        let mut rows = [[0.0; 3]; MAX_RING + 1];
+        for node in 0..rings.len() {
+            if !local_rows(rings, fits, node, kind, &mut rows) {
+                continue;
+            }
+            let places = &self.places[self.starts[node] as usize..self.starts[node + 1] as usize];
+            let mut places = places.iter();
+            for i in 0..=rings.ring(node).len() {
+                let a = rows[i];
+                for (b, &place) in rows[..=i].iter().zip(&mut places) {
+                    values[place as usize] += a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+                }
+            }
+        }
+        for (unknown, value) in self.matrix.diagonal_mut().iter_mut().enumerate() {
+            *value = *value * (1.0 + DIAGONAL_SHIFT) + mass(unknown);
+            // A node that no row mentions is its own equation.
+            if !(*value > 0.0) {
+                *value = 1.0;
+            }
+        }
+    }
+
+    /// `rhs = -A_S[:, fixed] field[fixed]` for a field given on all nodes, of which only fixed ones are not zero.
+    pub(crate) fn pull_fixed(
+        &self,
+        rings: &Rings,
+        fits: &Fits,
+        unknowns: &Unknowns,
+        field: &[f64],
+        rhs: &mut [f64],
+    ) {
+        rhs.fill(0.0);
+        let mut rows = [[0.0; 3]; MAX_RING + 1];
+        for node in 0..rings.len() {
+            let is_pulled = neighbourhood_of(rings, node).any(|far| field[far as usize] != 0.0);
+            if !is_pulled || !local_rows(rings, fits, node, Rows::Field, &mut rows) {
+                continue;
+            }
+            let mut bend = [0.0; 3];
+            for (row, far) in rows.iter().zip(neighbourhood_of(rings, node)) {
+                for c in 0..3 {
+                    bend[c] += row[c] * field[far as usize];
+                }
+            }
+            for (row, far) in rows.iter().zip(neighbourhood_of(rings, node)) {
+                let index = unknowns.index[far as usize];
+                if index != FIXED {
+                    rhs[index as usize] -= row[0] * bend[0] + row[1] * bend[1] + row[2] * bend[2];
+                }
+            }
+        }
+    }
+
+    pub(crate) fn matrix(&self) -> &SymmetricMatrix {
+        &self.matrix
+    }
+}
+
+/// A node and its ring, in the order of the local rows.
+fn neighbourhood_of(rings: &Rings, node: usize) -> impl Iterator<Item = u32> + Clone {
+    #[expect(clippy::cast_possible_truncation, reason = "nodes are counted by u32")]
+    let centre = node as u32;
+    std::iter::once(centre).chain(rings.ring(node).iter().copied())
+}
+
+/// Visits every neighbourhood that contains `node`.
+fn for_star<'a>(
+    rings: &'a Rings,
+    node: u32,
+    mut visit: impl FnMut(usize, std::iter::Chain<std::iter::Once<u32>, std::iter::Copied<std::slice::Iter<'a, u32>>>),
+) {
+    for centre in neighbourhood_of(rings, node as usize) {
+        let list = std::iter::once(centre).chain(rings.ring(centre as usize).iter().copied());
+        visit(centre as usize, list);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::workload;
+
+    /// The matrix as the sum of dense outer products.
+    fn dense(rings: &Rings, fits: &Fits, unknowns: &Unknowns, kind: Rows) -> Vec<Vec<f64>> {
+        let mut a = vec![vec![0.0; unknowns.len()]; unknowns.len()];
+        let mut rows = [[0.0; 3]; MAX_RING + 1];
+        for node in 0..rings.len() {
+            local_rows(rings, fits, node, kind, &mut rows);
+            for (i, x) in neighbourhood_of(rings, node).enumerate() {
+                for (j, y) in neighbourhood_of(rings, node).enumerate() {
+                    let (x, y) = (unknowns.index[x as usize], unknowns.index[y as usize]);
+                    if x != FIXED && y != FIXED {
+                        let product = (0..3).map(|c| rows[i][c] * rows[j][c]).sum::<f64>();
+                        a[x as usize][y as usize] += product;
+                    }
+                }
+            }
+        }
+        a
+    }
+
+    #[test]
+    fn scattered_matrix_equals_sum_of_outer_products() {
+        let mesh = workload::disc(4);
+        let rings = Rings::from_triangles(mesh.positions.len(), &mesh.triangles).unwrap();
+        let mut fits = Fits::new(&rings);
+        let lifted: Vec<_> = mesh.positions.iter().map(|p| *p + glam::DVec3::Z * (0.3 * p.x * p.x)).collect();
+        fits.refit(&rings, &lifted);
+        let unknowns = Unknowns::new(mesh.fixed.iter().map(|fixed| !fixed));
+        let mut assembly = Assembly::new(&rings, &unknowns);
+        assembly.assemble(&rings, &fits, Rows::Offset, |_| 0.0);
+        let expected = dense(&rings, &fits, &unknowns, Rows::Offset);
+        let mut y = vec![0.0; unknowns.len()];
+        for column in 0..unknowns.len() {
+            let mut x = vec![0.0; unknowns.len()];
+            x[column] = 1.0;
+            assembly.matrix().multiply(&x, &mut y);
+            for (row, &value) in y.iter().enumerate() {
+                let wanted = expected[row][column];
+                assert!((value - wanted).abs() <= 1e-9 * expected[row][row].max(expected[column][column]));
+            }
+        }
+    }
+
+    #[test]
+    fn field_rows_annihilate_constants() {
+        let mesh = workload::disc(3);
+        let rings = Rings::from_triangles(mesh.positions.len(), &mesh.triangles).unwrap();
+        let mut fits = Fits::new(&rings);
+        fits.refit(&rings, &mesh.positions);
+        let unknowns = Unknowns::new(mesh.fixed.iter().map(|fixed| !fixed));
+        let mut assembly = Assembly::new(&rings, &unknowns);
+        assembly.assemble(&rings, &fits, Rows::Field, |_| 0.0);
+        // A ones + pulled ones on the fixed nodes = 0
+        let mut product = vec![0.0; unknowns.len()];
+        assembly.matrix().multiply(&vec![1.0; unknowns.len()], &mut product);
+        let field: Vec<f64> = mesh.fixed.iter().map(|&fixed| f64::from(u8::from(fixed))).collect();
+        let mut rhs = vec![0.0; unknowns.len()];
+        assembly.pull_fixed(&rings, &fits, &unknowns, &field, &mut rhs);
+        let scale = product.iter().fold(0.0_f64, |scale, value| scale.max(value.abs()));
+        assert!(product.iter().zip(&rhs).all(|(a, b)| (a - b).abs() < 1e-6 * scale.max(1.0)));
+    }
+}

@@ -1,0 +1,104 @@
+//! What a solver can refuse, how it is set up, and what a step is allowed to cost.
+
+use glam::DVec3;
+use thiserror::Error;
+
+use crate::factor::FactorError;
+use crate::rings::RingError;
+
+/// Why a solver refuses. Positions are as they were.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum SolverError {
+    /// An array does not have one entry per node: rebuild the solver after a mesh edit.
+    #[error("expected {expected} entries, one per node, and found {found}")]
+    Length {
+        /// Number of nodes.
+        expected: usize,
+        /// Length of the array.
+        found: usize,
+    },
+    /// A position or displacement of this node is NaN, infinite, or beyond 1e50 in size: clamp the input.
+    #[error("the position or displacement of node {0} is not a reasonable number")]
+    NotFinite(u32),
+    /// A move names a node that does not exist.
+    #[error("node {0} does not exist")]
+    UnknownNode(u32),
+    /// Only fixed nodes can be moved; call `set_fixed` first.
+    #[error("node {0} is not fixed and so cannot be moved")]
+    NotFixed(u32),
+    /// The connectivity is not one the solver can work with.
+    #[error(transparent)]
+    Rings(#[from] RingError),
+    /// The preconditioner could not be factorised; happens on positions that are degenerate beyond use only.
+    #[error(transparent)]
+    Factor(#[from] FactorError),
+}
+
+/// Largest coordinate taken in: its fourth power still fits an `f64`.
+const LARGEST: f64 = 1e50;
+
+/// Refuses vectors that are not finite or beyond use.
+pub(crate) fn check_finite(node: u32, vector: DVec3) -> Result<(), SolverError> {
+    // Written so that NaN fails.
+    let is_good = vector.abs().max_element() <= LARGEST && !vector.is_nan();
+    if is_good { Ok(()) } else { Err(SolverError::NotFinite(node)) }
+}
+
+/// Refuses positions of the wrong number or without sense.
+pub(crate) fn check_positions(expected: usize, positions: &[DVec3]) -> Result<(), SolverError> {
+    check_length(expected, positions.len())?;
+    for (node, &position) in (0_u32..).zip(positions) {
+        check_finite(node, position)?;
+    }
+    Ok(())
+}
+
+/// Refuses arrays that do not have one entry per node.
+pub(crate) fn check_length(expected: usize, found: usize) -> Result<(), SolverError> {
+    if expected == found { Ok(()) } else { Err(SolverError::Length { expected, found }) }
+}
+
+/// Numbers that steer a solver; the defaults are the recipe's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Settings {
+    /// Relative residual at which a step's conjugate gradients may stop early.
+    pub step_tolerance: f64,
+    /// Relative residual of the predictor's field.
+    pub predictor_tolerance: f64,
+    /// Iterations the predictor may spend on one field.
+    pub predictor_iterations: u32,
+    /// Largest relative strain of an edge in one predictor call.
+    pub strain_limit: f64,
+    /// Mass damping `mu` where four or more constraint points span space.
+    pub damping: f64,
+    /// Mass damping where they do not: such shapes have families of minimisers to drift along.
+    pub loose_damping: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            step_tolerance: 3e-2,
+            predictor_tolerance: 1e-3,
+            predictor_iterations: 60,
+            strain_limit: 0.5,
+            damping: 0.1,
+            loose_damping: 10.0,
+        }
+    }
+}
+
+/// What one step may cost.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Budget {
+    /// Iterations of the conjugate gradients.
+    pub iterations: u32,
+}
+
+impl Default for Budget {
+    fn default() -> Self {
+        Self { iterations: 8 }
+    }
+}

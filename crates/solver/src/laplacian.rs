@@ -1,0 +1,177 @@
+//! The cotangent Laplacian of the free nodes, fixed nodes removed.
+//!
+//! Sign: positive definite, `(L x)_i = Σ_j w_ij (x_i - x_j)` with `w` = half the sum of the cotangents of the two
+//! opposite angles (Pinkall, Polthier 1993), floored at 1e-3 (recipe, section 6) so that it stays an M-matrix on any
+//! mesh, and capped so that a needle cannot blow up the factor.
+
+use glam::DVec3;
+
+use crate::factor::{Cholesky, FactorError};
+use crate::operator::{FIXED, Unknowns};
+use crate::rings::Rings;
+
+const FLOOR: f64 = 1e-3;
+const CAP: f64 = 1e4;
+
+/// Which weights an edge gets.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Weights {
+    /// One per edge: shape-blind, for positions that mean nothing yet.
+    Uniform,
+    /// Half the cotangents: follows the shape.
+    #[default]
+    Cotangent,
+}
+
+/// The Laplacian with a fixed pattern and its factor.
+#[derive(Clone, Debug)]
+pub(crate) struct Laplacian {
+    /// Both ends of each edge, and the place of its entry in the factor's values (`None` beside a fixed node).
+    edges: Vec<Edge>,
+    /// Per triangle its nodes and the edges opposite them.
+    triangles: Vec<([u32; 3], [u32; 3])>,
+    weights: Vec<f64>,
+    /// Upper triangle by columns, diagonal last.
+    values: Vec<f64>,
+    diagonal: Vec<u32>,
+    factor: Cholesky,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Edge {
+    unknowns: [u32; 2],
+    place: u32,
+}
+
+impl Laplacian {
+    #[expect(clippy::cast_possible_truncation, reason = "spokes and nodes are counted by u32")]
+    pub(crate) fn new(rings: &Rings, unknowns: &Unknowns) -> Result<Self, FactorError> {
+        let mut edge_of_slot = vec![FIXED; rings.spokes()];
+        let mut columns: Vec<Vec<(u32, u32)>> = vec![Vec::new(); unknowns.len()];
+        let mut edges = Vec::new();
+        for (slot, from, to) in rings.edges() {
+            edge_of_slot[slot] = edges.len() as u32;
+            let mut pair = [unknowns.index[from], unknowns.index[to]];
+            pair.sort_unstable();
+            if pair[1] != FIXED {
+                columns[pair[1] as usize].push((pair[0], edges.len() as u32));
+            }
+            edges.push(Edge { unknowns: pair, place: FIXED });
+        }
+        let (mut starts, mut rows, mut diagonal) = (vec![0], Vec::new(), Vec::new());
+        for (column, entries) in columns.iter_mut().enumerate() {
+            entries.sort_unstable();
+            for &(row, edge) in &*entries {
+                edges[edge as usize].place = rows.len() as u32;
+                rows.push(row);
+            }
+            diagonal.push(rows.len() as u32);
+            rows.push(column as u32);
+            starts.push(rows.len() as u32);
+        }
+        Ok(Self {
+            triangles: triangles(rings, &edge_of_slot),
+            weights: vec![0.0; edges.len()],
+            values: vec![0.0; rows.len()],
+            factor: Cholesky::new(starts, rows)?,
+            edges,
+            diagonal,
+        })
+    }
+
+    /// Refreshes the numbers. `shift` is added to the diagonal, per unknown.
+    pub(crate) fn refresh(
+        &mut self,
+        positions: &[DVec3],
+        weights: Weights,
+        shift: impl Fn(usize) -> f64,
+    ) -> Result<(), FactorError> {
+        match weights {
+            Weights::Uniform => self.weights.fill(1.0),
+            Weights::Cotangent => self.cotangents(positions),
+        }
+        self.values.fill(0.0);
+        for (edge, &weight) in self.edges.iter().zip(&self.weights) {
+            for &unknown in edge.unknowns.iter().filter(|&&unknown| unknown != FIXED) {
+                self.values[self.diagonal[unknown as usize] as usize] += weight;
+            }
+            if edge.place != FIXED {
+                self.values[edge.place as usize] = -weight;
+            }
+        }
+        for (unknown, &place) in self.diagonal.iter().enumerate() {
+            let value = &mut self.values[place as usize];
+            *value += shift(unknown);
+            // A free node without edges: any positive number keeps the factor alive.
+            if !(*value > 0.0) {
+                *value = 1.0;
+            }
+        }
+        self.factor.refactor(&self.values)
+    }
+
+    fn cotangents(&mut self, positions: &[DVec3]) {
+        self.weights.fill(0.0);
+        for (nodes, opposite) in &self.triangles {
+            let [a, b, c] = nodes.map(|node| positions[node as usize]);
+            let sides = [c - b, a - c, b - a];
+            let double_area = sides[0].cross(sides[1]).length();
+            for corner in 0..3 {
+                let cosine = -sides[(corner + 1) % 3].dot(sides[(corner + 2) % 3]);
+                // min and max also turn NaN into a number.
+                let cotangent = (cosine / double_area).max(-CAP).min(CAP);
+                self.weights[opposite[corner] as usize] += 0.5 * cotangent;
+            }
+        }
+        for weight in &mut self.weights {
+            *weight = weight.max(FLOOR);
+        }
+    }
+
+    /// Adds `Σ_j w_ij known_j` over the fixed neighbours to every unknown: the right-hand side of a boundary value problem.
+    pub(crate) fn add_fixed(&self, rings: &Rings, unknowns: &Unknowns, known: &[f64], rhs: &mut [f64]) {
+        for ((_, from, to), &weight) in rings.edges().zip(&self.weights) {
+            for (here, there) in [(from, to), (to, from)] {
+                if unknowns.index[here] != FIXED && unknowns.index[there] == FIXED {
+                    rhs[unknowns.index[here] as usize] += weight * known[there];
+                }
+            }
+        }
+    }
+
+    /// `out = L x` over all nodes, fixed ones included.
+    pub(crate) fn multiply_all(&self, rings: &Rings, x: &[f64], out: &mut [f64]) {
+        out.fill(0.0);
+        for ((_, from, to), &weight) in rings.edges().zip(&self.weights) {
+            let flow = weight * (x[from] - x[to]);
+            out[from] += flow;
+            out[to] -= flow;
+        }
+    }
+
+    /// Overwrites `x` with `L⁻¹ x`.
+    pub(crate) fn solve(&mut self, x: &mut [f64]) {
+        self.factor.solve(x);
+    }
+}
+
+/// Each triangle once, from its smallest node, with the edges opposite its corners.
+fn triangles(rings: &Rings, edge_of_slot: &[u32]) -> Vec<([u32; 3], [u32; 3])> {
+    let edge = |a: u32, b: u32| {
+        let (from, to) = (a.min(b) as usize, a.max(b));
+        let place = rings.ring(from).iter().position(|&far| far == to);
+        place.map_or(0, |place| edge_of_slot[rings.slots(from).start + place])
+    };
+    let mut triangles = Vec::new();
+    for (node, index) in (0..rings.len()).zip(0_u32..) {
+        let ring = rings.ring(node);
+        let gaps = crate::neighbourhood::gaps(ring.len(), rings.is_boundary(node));
+        for place in 0..gaps {
+            let (b, c) = (ring[place], ring[(place + 1) % ring.len()]);
+            if index < b && index < c {
+                triangles.push(([index, b, c], [edge(b, c), edge(index, c), edge(index, b)]));
+            }
+        }
+    }
+    triangles
+}

@@ -1,0 +1,104 @@
+//! Tangential smoothing and new nodes: where a node sits within its own surface.
+//!
+//! Source: recipe section 7. A node moves towards the area centroid of its parametric fan and is mapped back by the
+//! fitted quadratic, not by the facets: a sphere keeps its radius over hundreds of sweeps.
+
+use glam::DVec3;
+
+use crate::fit::{Fits, NodeFit};
+use crate::neighbourhood::{self, Spoke};
+use crate::rings::Rings;
+
+/// Moves shorter than this, in units of the local mean edge, creep on for ever and are left out.
+const SMALLEST_MOVE: f64 = 0.01;
+/// Moves are cut at this, in the same units, where the quadratic is still a good map.
+const LARGEST_MOVE: f64 = 0.5;
+
+/// What a smoothing sweep did.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SmoothReport {
+    /// How many nodes moved.
+    pub moved: usize,
+    /// The largest move, in units of the node's mean edge.
+    pub largest_relative_move: f64,
+}
+
+/// One sweep; every node moves from the old positions, so the order does not matter.
+pub(crate) fn smooth(
+    rings: &Rings,
+    fits: &Fits,
+    positions: &mut [DVec3],
+    movable: &[bool],
+    fraction: f64,
+    lengths: Option<&[f64]>,
+) -> SmoothReport {
+    assert_eq!(movable.len(), rings.len(), "one flag per node");
+    let mut report = SmoothReport::default();
+    for (node, fit) in fits.nodes.iter().enumerate() {
+        if !movable[node] || !fit.is_fitted() {
+            continue;
+        }
+        let spokes = &fits.spokes[rings.slots(node)];
+        let (u, v) = if rings.is_boundary(node) {
+            // Along the boundary only: its two neighbours lie on the u axis.
+            let ends = spokes.first().zip(spokes.last());
+            (ends.map_or(0.0, |(first, last)| 0.5 * (first.r - last.r) / fit.frame.h), 0.0)
+        } else {
+            centroid(rings, node, fit, spokes, lengths)
+        };
+        let (u, v) = (fraction * u, fraction * v);
+        let distance = (u * u + v * v).sqrt();
+        // Written so that NaN stays put.
+        if !(distance >= SMALLEST_MOVE) {
+            continue;
+        }
+        let cut = if distance > LARGEST_MOVE { LARGEST_MOVE / distance } else { 1.0 };
+        let moved = positions[node] + fit.evaluate(u * cut, v * cut, 1.0);
+        if moved.is_finite() {
+            positions[node] = moved;
+            report.moved += 1;
+            report.largest_relative_move = report.largest_relative_move.max(distance * cut);
+        }
+    }
+    report
+}
+
+/// Area centroid of the fan in normalised coordinates, triangles weighed by `area / h*²` if lengths are given.
+fn centroid(rings: &Rings, node: usize, fit: &NodeFit, spokes: &[Spoke], lengths: Option<&[f64]>) -> (f64, f64) {
+    let ring = rings.ring(node);
+    let h = fit.frame.h;
+    let (mut sum_u, mut sum_v, mut sum) = (0.0, 0.0, 0.0);
+    for j in 0..neighbourhood::gaps(spokes.len(), false) {
+        let next = if j + 1 == spokes.len() { 0 } else { j + 1 };
+        let (near, far) = (&spokes[j], &spokes[next]);
+        let area = near.r * far.r * (near.cos * far.sin - near.sin * far.cos);
+        let weight = lengths.map_or(1.0, |lengths| {
+            let wanted = (lengths[node] + lengths[ring[j] as usize] + lengths[ring[next] as usize]) / 3.0;
+            1.0 / (wanted * wanted)
+        });
+        let mass = area.max(0.0) * weight;
+        sum += mass;
+        sum_u += mass * (near.r * near.cos + far.r * far.cos);
+        sum_v += mass * (near.r * near.sin + far.r * far.sin);
+    }
+    if sum > 0.0 { (sum_u / (3.0 * sum * h), sum_v / (3.0 * sum * h)) } else { (0.0, 0.0) }
+}
+
+/// The middle of an edge plus the mean of what both quadratics rise above their chord there.
+pub(crate) fn place_on_edge(rings: &Rings, fits: &Fits, positions: &[DVec3], a: u32, b: u32) -> DVec3 {
+    let middle = 0.5 * (positions[a as usize] + positions[b as usize]);
+    let rise = |node: u32, far: u32| {
+        let fit = &fits.nodes[node as usize];
+        let place = rings.ring(node as usize).iter().position(|&other| other == far)?;
+        let spoke = &fits.spokes[rings.slots(node as usize)][place];
+        let (u, v) = (spoke.r * spoke.cos / fit.frame.h, spoke.r * spoke.sin / fit.frame.h);
+        // q(t) = second(t): q(1/2) - q(1)/2 = -second/4, whatever the linear part.
+        let rise = fit.evaluate(u, v, 0.0) * -0.25;
+        (fit.is_fitted() && rise.is_finite()).then_some(rise)
+    };
+    match (rise(a, b), rise(b, a)) {
+        (Some(one), Some(other)) => middle + 0.5 * (one + other),
+        (Some(one), None) | (None, Some(one)) => middle + one,
+        (None, None) => middle,
+    }
+}

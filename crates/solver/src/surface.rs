@@ -1,0 +1,414 @@
+//! The stepping object: one frozen connectivity, its fits, its matrix, and the two verbs `predict` and `step`.
+//!
+//! Source: recipe sections 4 and 5. A step fits, takes the exact gradient, solves a damped Gauss-Newton system by a
+//! budget of preconditioned conjugate gradients and searches along the normals on the true discrete energy, which
+//! therefore never rises. The accepted fit serves the next step. No buffer is allocated while the connectivity and
+//! the fixed nodes stay.
+//!
+//! ```
+//! use ductile_solver::{Budget, workload};
+//! let shape = workload::disc(4);
+//! let (mut solver, mut positions) = (shape.solver().unwrap(), shape.positions.clone());
+//! solver.predict(&mut positions, &[(0, glam::DVec3::Z * 0.1)]).unwrap();
+//! let report = solver.step(&mut positions, Budget::default()).unwrap();
+//! assert!(report.energy <= report.energy_before);
+//! ```
+
+use glam::DVec3;
+
+use crate::assembly::{Assembly, Rows};
+use crate::cg::{self, Limit, Workspace};
+use crate::component::{Components, Looseness};
+use crate::error::{Budget, Settings, SolverError, check_finite, check_length, check_positions};
+use crate::fit::{Curvature, Fits};
+use crate::gradient::gradient;
+use crate::line_search;
+use crate::operator::Unknowns;
+use crate::precondition::Preconditioner;
+use crate::predictor::{self, Parts, Predicted, Predictor};
+use crate::rings::Rings;
+use crate::smooth::{self, SmoothReport};
+
+/// Move below which a step counts as rest, in units of the local mean edge.
+const REST_MOVE: f64 = 1e-3;
+/// Predicted decrease below which a step counts towards rest, relative to the energy.
+const REST_DECREASE: f64 = 1e-6;
+/// Steps of small predicted decrease that make rest.
+const REST_STEPS: u32 = 3;
+/// Residual above which a direction says nothing about rest: the budget was too small.
+const REST_RESIDUAL: f64 = 0.3;
+/// Decrease, relative to the energy, that rounding could fake: nothing is left to gain.
+const NOISE: f64 = 1e-14;
+/// Damping is raised by this after a failed search, up to the maximum, and lowered again by success.
+const DAMPING_RAISE: f64 = 10.0;
+const DAMPING_LOWER: f64 = 0.2;
+const DAMPING_MAX: f64 = 1e8;
+
+/// What one step did.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StepReport {
+    /// Discrete energy before the step.
+    pub energy_before: f64,
+    /// Discrete energy after it; never above `energy_before`.
+    pub energy: f64,
+    /// `-s g·alpha`: the decrease the gradient promised for the accepted scale.
+    pub predicted_decrease: f64,
+    /// Largest distance a node moved.
+    pub largest_move: f64,
+    /// The same in units of the node's mean edge.
+    pub largest_relative_move: f64,
+    /// Iterations of the conjugate gradients.
+    pub cg_iterations: u32,
+    /// Their relative residual.
+    pub residual: f64,
+    /// Halvings of the line search.
+    pub halvings: u32,
+    /// Accepted scale of the direction; 0 when nothing moved.
+    pub step_scale: f64,
+    /// The shape has come to rest: further steps gain nothing worth seeing.
+    pub at_rest: bool,
+    /// The search failed: positions are as they were and the next step is damped more.
+    pub damped: bool,
+}
+
+/// Fair surfaces over one frozen connectivity.
+#[derive(Clone, Debug)]
+pub struct SurfaceSolver {
+    rings: Rings,
+    settings: Settings,
+    fixed: Vec<bool>,
+    components: Components,
+    unknowns: Unknowns,
+    assembly: Assembly,
+    preconditioner: Preconditioner,
+    predictor: Predictor,
+    fits: Fits,
+    trial: Fits,
+    trial_positions: Vec<DVec3>,
+    normals: Vec<DVec3>,
+    gradient: Vec<DVec3>,
+    /// `-g/2` per unknown, and the direction.
+    rhs: Vec<f64>,
+    alpha: Vec<f64>,
+    workspace: Workspace,
+    /// Factor on the mass damping, above 1 after failed searches.
+    damping: f64,
+    quiet_steps: u32,
+}
+
+impl SurfaceSolver {
+    /// Sets up a solver. Nodes without neighbours are taken as fixed.
+    pub fn new(rings: Rings, fixed: Vec<bool>, settings: Settings) -> Result<Self, SolverError> {
+        check_length(rings.len(), fixed.len())?;
+        let unknowns = unknowns(&rings, &fixed);
+        Ok(Self {
+            components: Components::new(&rings),
+            assembly: Assembly::new(&rings, &unknowns),
+            preconditioner: Preconditioner::new(&rings, &unknowns)?,
+            predictor: Predictor::default(),
+            fits: Fits::new(&rings),
+            trial: Fits::new(&rings),
+            trial_positions: vec![DVec3::ZERO; rings.len()],
+            normals: vec![DVec3::Z; rings.len()],
+            gradient: vec![DVec3::ZERO; rings.len()],
+            rhs: Vec::new(),
+            alpha: Vec::new(),
+            workspace: Workspace::default(),
+            damping: 1.0,
+            quiet_steps: 0,
+            unknowns,
+            settings,
+            fixed,
+            rings,
+        })
+    }
+
+    /// The connectivity.
+    pub fn rings(&self) -> &Rings {
+        &self.rings
+    }
+
+    /// Which nodes are fixed.
+    pub fn fixed(&self) -> &[bool] {
+        &self.fixed
+    }
+
+    /// Changes which nodes are fixed; the symbolic work is done again only if they differ.
+    pub fn set_fixed(&mut self, fixed: Vec<bool>) -> Result<(), SolverError> {
+        check_length(self.rings.len(), fixed.len())?;
+        if fixed != self.fixed {
+            let unknowns = unknowns(&self.rings, &fixed);
+            self.preconditioner = Preconditioner::new(&self.rings, &unknowns)?;
+            self.assembly = Assembly::new(&self.rings, &unknowns);
+            self.predictor.reset();
+            self.unknowns = unknowns;
+            self.fixed = fixed;
+            self.damping = 1.0;
+            self.quiet_steps = 0;
+        }
+        Ok(())
+    }
+
+    /// Carries moved constraint nodes and everything between them by a smooth field.
+    ///
+    /// `moves` names fixed nodes and their displacements; a node named twice moves by the last. Fixed nodes not
+    /// named stay. At most the strain-limited fraction is applied; the caller asks again for the rest.
+    pub fn predict(
+        &mut self,
+        positions: &mut [DVec3],
+        moves: &[(u32, DVec3)],
+    ) -> Result<Predicted, SolverError> {
+        check_positions(self.rings.len(), positions)?;
+        let moves = self.checked_moves(positions, moves)?;
+        if moves.iter().all(|&(_, displacement)| displacement == DVec3::ZERO) {
+            return Ok(Predicted { fraction: 1.0, ..Predicted::default() });
+        }
+        self.refit(positions);
+        self.prepare()?;
+        self.assembly.assemble(&self.rings, &self.fits, Rows::Field, |_| 0.0);
+        let limit = Limit {
+            iterations: self.settings.predictor_iterations,
+            tolerance: self.settings.predictor_tolerance,
+        };
+        let parts = Parts {
+            rings: &self.rings,
+            fits: &self.fits,
+            unknowns: &self.unknowns,
+            assembly: &self.assembly,
+            preconditioner: &mut self.preconditioner,
+            limit,
+        };
+        let (field, outcome) = self.predictor.displacements(parts, &moves);
+        let strain = predictor::strain(&self.rings, &self.fits, &self.unknowns, field);
+        let fraction = if strain > self.settings.strain_limit { self.settings.strain_limit / strain } else { 1.0 };
+        for (position, &displacement) in positions.iter_mut().zip(field) {
+            *position += displacement * fraction;
+        }
+        self.preconditioner.served(outcome.iterations);
+        self.quiet_steps = 0;
+        Ok(Predicted { fraction, strain, iterations: outcome.iterations, residual: outcome.residual })
+    }
+
+    /// One non-linear step. Never raises the energy; a failed search leaves the positions alone.
+    pub fn step(&mut self, positions: &mut [DVec3], budget: Budget) -> Result<StepReport, SolverError> {
+        check_positions(self.rings.len(), positions)?;
+        self.refit(positions);
+        self.slopes();
+        let looseness = self.components.looseness(positions, &self.fixed);
+        self.prepare()?;
+        let (fits, unknowns, components) = (&self.fits, &self.unknowns, &self.components);
+        let (settings, damping) = (&self.settings, self.damping);
+        self.assembly.assemble(&self.rings, fits, Rows::Offset, |unknown| {
+            let node = unknowns.nodes[unknown] as usize;
+            damping * mass(fits, components, &looseness, settings, node)
+        });
+        self.alpha.clear();
+        self.alpha.resize(self.unknowns.len(), 0.0);
+        let outcome = cg::solve(
+            |x, y| self.assembly.matrix().multiply(x, y),
+            |r, z| self.preconditioner.apply(r, z),
+            &self.rhs,
+            &mut self.alpha,
+            Limit { iterations: budget.iterations, tolerance: self.settings.step_tolerance },
+            &mut self.workspace,
+        );
+        self.preconditioner.served(outcome.iterations);
+        let mut report = StepReport {
+            energy_before: self.fits.energy,
+            energy: self.fits.energy,
+            cg_iterations: outcome.iterations,
+            residual: outcome.residual,
+            ..StepReport::default()
+        };
+        self.advance(positions, &mut report);
+        Ok(report)
+    }
+
+    /// Refreshes the fits; steps and predictions do so themselves.
+    ///
+    /// # Panics
+    /// When there is not one position per node.
+    pub fn fit_all(&mut self, positions: &[DVec3]) {
+        assert_eq!(positions.len(), self.rings.len(), "one position per node");
+        self.refit(positions);
+    }
+
+    /// Unit normals of the newest fit, towards the side from which the rings run counter-clockwise.
+    pub fn normals(&self) -> &[DVec3] {
+        &self.normals
+    }
+
+    /// Discrete energy of the newest fit; NaN before the first.
+    pub fn energy(&self) -> f64 {
+        self.fits.energy
+    }
+
+    /// Curvature of every node in the newest fit.
+    pub fn curvatures(&self) -> impl ExactSizeIterator<Item = Curvature> {
+        self.fits.nodes.iter().map(|fit| fit.curvature())
+    }
+
+    /// Jacobian of every node's fit: near 1 where the mesh resolves the shape, below 0.7 where it should be refined.
+    pub fn jacobians(&self) -> impl ExactSizeIterator<Item = f64> {
+        self.fits.nodes.iter().map(|fit| fit.jacobian)
+    }
+
+    /// Exact `dE/dp` of every node in the newest fit, and the energy.
+    pub fn gradient(&mut self) -> &[DVec3] {
+        gradient(&self.rings, &self.fits, &mut self.gradient);
+        &self.gradient
+    }
+
+    /// Moves nodes along the fitted surface towards the middle of their rings (recipe, section 7).
+    ///
+    /// `fraction` of the way, 0.5 to 0.7; nodes not `movable` stay, whether fixed or not. Moves below 0.01 of the
+    /// local edge are left out.
+    ///
+    /// # Panics
+    /// When the arrays do not have one entry per node.
+    pub fn smooth(&mut self, positions: &mut [DVec3], movable: &[bool], fraction: f64) -> SmoothReport {
+        self.smooth_graded(positions, movable, fraction, None)
+    }
+
+    /// The same on a graded mesh: triangles are weighed by `area / h*²` with the wanted edge length of each node.
+    ///
+    /// # Panics
+    /// When the arrays do not have one entry per node.
+    pub fn smooth_graded(
+        &mut self,
+        positions: &mut [DVec3],
+        movable: &[bool],
+        fraction: f64,
+        lengths: Option<&[f64]>,
+    ) -> SmoothReport {
+        self.fit_all(positions);
+        let report = smooth::smooth(&self.rings, &self.fits, positions, movable, fraction, lengths);
+        if report.moved > 0 {
+            self.quiet_steps = 0;
+        }
+        report
+    }
+
+    /// The middle of an edge, lifted onto the fitted quadratics of both ends: where a split puts its new node.
+    ///
+    /// Uses the newest fit. The plain middle when the nodes are not neighbours or have no fit.
+    pub fn place_on_edge(&self, positions: &[DVec3], a: u32, b: u32) -> DVec3 {
+        smooth::place_on_edge(&self.rings, &self.fits, positions, a, b)
+    }
+
+    /// Fits at these positions, and the normals that go with them.
+    fn refit(&mut self, positions: &[DVec3]) {
+        self.fits.refit(&self.rings, positions);
+        for (normal, fit) in self.normals.iter_mut().zip(&self.fits.nodes) {
+            *normal = fit.normal;
+        }
+    }
+
+    /// Right-hand side `-g/2` from the exact gradient along the normals.
+    fn slopes(&mut self) {
+        gradient(&self.rings, &self.fits, &mut self.gradient);
+        self.rhs.clear();
+        let slope = |&node: &u32| -0.5 * self.gradient[node as usize].dot(self.fits.nodes[node as usize].normal);
+        self.rhs.extend(self.unknowns.nodes.iter().map(slope));
+    }
+
+    fn prepare(&mut self) -> Result<(), SolverError> {
+        let (fits, unknowns, components) = (&self.fits, &self.unknowns, &self.components);
+        let (looseness, settings) = (components.looseness(&fits.positions, &self.fixed), &self.settings);
+        self.preconditioner.prepare(fits, unknowns, |unknown| {
+            let node = unknowns.nodes[unknown] as usize;
+            if looseness.of(components, node).has_fixed {
+                return 0.0;
+            }
+            // (Lc + sqrt(mu) Ma/R²) Ma⁻¹ (Lc + ...) then stands for the damped plate on constants too.
+            let mass = mass(fits, components, &looseness, settings, node);
+            (mass * fits.nodes[node].area).sqrt()
+        })?;
+        Ok(())
+    }
+
+    /// Line search along the direction, acceptance, rest.
+    fn advance(&mut self, positions: &mut [DVec3], report: &mut StepReport) {
+        let slope = -2.0 * cg::dot(&self.rhs, &self.alpha);
+        let energy = self.fits.energy;
+        let is_converged = report.residual <= REST_RESIDUAL;
+        // Nothing left to gain, or nothing to go by.
+        if !(slope < -NOISE * energy) || !slope.is_finite() || !energy.is_finite() {
+            report.damped = !(slope.is_finite() && energy.is_finite());
+            report.at_rest = !report.damped && is_converged;
+            return;
+        }
+        let found = line_search::search(
+            &self.rings,
+            &self.unknowns,
+            &self.fits,
+            &self.alpha,
+            slope,
+            &mut self.trial_positions,
+            &mut self.trial,
+        );
+        report.halvings = found.halvings;
+        report.step_scale = found.scale;
+        report.predicted_decrease = -slope * found.scale;
+        self.quiet_steps = if -slope < REST_DECREASE * energy && is_converged { self.quiet_steps + 1 } else { 0 };
+        if !found.is_accepted {
+            self.damping = (self.damping * DAMPING_RAISE).min(DAMPING_MAX);
+            report.damped = true;
+            report.at_rest = self.quiet_steps >= REST_STEPS;
+            return;
+        }
+        self.damping = (self.damping * DAMPING_LOWER).max(1.0);
+        for (&node, &alpha) in self.unknowns.nodes.iter().zip(&self.alpha) {
+            let distance = found.scale * alpha.abs();
+            report.largest_move = report.largest_move.max(distance);
+            let h = self.fits.nodes[node as usize].frame.h;
+            report.largest_relative_move = report.largest_relative_move.max(distance / h);
+        }
+        std::mem::swap(&mut self.fits, &mut self.trial);
+        positions.copy_from_slice(&self.fits.positions);
+        for (normal, fit) in self.normals.iter_mut().zip(&self.fits.nodes) {
+            *normal = fit.normal;
+        }
+        report.energy = self.fits.energy;
+        let is_small = report.largest_relative_move < REST_MOVE
+            && found.halvings == 0
+            && report.residual <= self.settings.step_tolerance;
+        report.at_rest = is_small || self.quiet_steps >= REST_STEPS;
+    }
+
+    /// Every move once (the last one counts), in order of the nodes, checked.
+    fn checked_moves(
+        &self,
+        positions: &[DVec3],
+        moves: &[(u32, DVec3)],
+    ) -> Result<Vec<(u32, DVec3)>, SolverError> {
+        for &(node, displacement) in moves {
+            let index = node as usize;
+            if index >= self.rings.len() {
+                return Err(SolverError::UnknownNode(node));
+            }
+            if !self.fixed[index] {
+                return Err(SolverError::NotFixed(node));
+            }
+            check_finite(node, displacement)?;
+            check_finite(node, positions[index] + displacement)?;
+        }
+        let mut sorted = moves.to_vec();
+        sorted.reverse();
+        sorted.sort_by_key(|&(node, _)| node);
+        sorted.dedup_by_key(|&mut (node, _)| node);
+        Ok(sorted)
+    }
+}
+
+/// `mu a / Rm⁴` of one node.
+fn mass(fits: &Fits, components: &Components, looseness: &Looseness, settings: &Settings, node: usize) -> f64 {
+    let part = looseness.of(components, node);
+    let mu = if part.is_loose { settings.loose_damping } else { settings.damping };
+    let squared = part.radius * part.radius;
+    if squared > 0.0 { mu * fits.nodes[node].area / (squared * squared) } else { 0.0 }
+}
+
+fn unknowns(rings: &Rings, fixed: &[bool]) -> Unknowns {
+    Unknowns::new(fixed.iter().enumerate().map(|(node, &fixed)| !fixed && !rings.ring(node).is_empty()))
+}
