@@ -1,0 +1,230 @@
+//! What curves and points look like: roles, hover, selection, and the marks that tools add.
+
+use crate::camera::Camera;
+use crate::curve_pass::append_polyline;
+use crate::layer::{Marks, length};
+use crate::look::Highlight;
+use crate::pick::Hit;
+use crate::scene::Scene;
+use crate::theme::Theme;
+use crate::uniforms::{Dot, Segment, Style};
+use ductile_spec::{CurveRole, CurveSpan, PointEntry, PointId};
+use glam::{Vec3, Vec4};
+use std::f32::consts::TAU;
+
+/// Half the width of a curve, and of a boundary, in CSS pixels.
+const CURVE: f32 = 1.3;
+const BOUNDARY: f32 = 1.6;
+/// What hover adds to half a width or a radius.
+const THICKER: f32 = 0.9;
+/// Radius of a control point.
+const POINT: f32 = 4.6;
+/// Width of the thin outline of a point.
+const HALO: f32 = 1.4;
+/// Width of the outline of what is selected.
+const SELECTED: f32 = 2.2;
+/// Opacity where a surface hides a curve, and a point.
+const HIDDEN_CURVE: f32 = 0.22;
+const HIDDEN_POINT: f32 = 0.30;
+/// Radius of the ring that lies on a surface where a grab would take hold.
+const RING: f32 = 10.0;
+const RING_CORNERS: u8 = 48;
+
+/// The parts of a scene's structure that the skeleton needs, and where its points are.
+#[derive(Debug, Default)]
+pub(crate) struct Skeleton {
+    curves: Vec<CurveSpan>,
+    points: Vec<PointEntry>,
+    places: Vec<Vec3>,
+    points_at: u32,
+    /// Points from back to front.
+    order: Vec<(f32, u32)>,
+}
+
+impl Skeleton {
+    /// Takes the structure and makes the segments of all curves.
+    pub(crate) fn take_structure(&mut self, scene: &Scene, segments: &mut Vec<Segment>) {
+        self.curves.clone_from(&scene.structure.curves);
+        self.points.clone_from(&scene.structure.points);
+        self.places.clear();
+        self.points_at = u32::try_from(scene.structure.points_at()).unwrap_or(u32::MAX);
+        let samples_at = u32::try_from(scene.structure.samples_at()).unwrap_or(u32::MAX);
+        segments.clear();
+        for (curve, style) in self.curves.iter().zip(0..) {
+            append_polyline(segments, samples_at + 3 * curve.first, curve.count, curve.closed, style);
+        }
+    }
+
+    /// Takes the places of the points.
+    pub(crate) fn take_frame(&mut self, scene: &Scene) {
+        self.places.clear();
+        self.places.extend(scene.points().map(|(_, at)| at));
+    }
+
+    /// Makes the styles of all curves and the points in their order from back to front.
+    pub(crate) fn mark(&mut self, marks: &mut Marks, camera: &Camera, highlight: &Highlight, theme: &Theme) {
+        marks.clear();
+        marks.curve_styles.extend(self.curves.iter().map(|curve| curve_style(curve, highlight, theme)));
+        self.order.clear();
+        self.order.extend(self.places.iter().zip(0..).map(|(at, i)| (camera.depth(*at), i)));
+        self.order.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        for &(_, i) in &self.order {
+            let style = length(&marks.dot_styles);
+            marks.dots.push(Dot { at: self.points_at + 3 * i, style });
+            marks.dot_styles.push(point_style(self.points[i as usize].id, highlight, theme));
+        }
+    }
+}
+
+fn curve_style(curve: &CurveSpan, highlight: &Highlight, theme: &Theme) -> Style {
+    let (fill, half_width) = match curve.role {
+        CurveRole::Boundary => (theme.boundary, BOUNDARY),
+        CurveRole::Free | CurveRole::Inner => (theme.curve, CURVE),
+    };
+    let is_hovered = matches!(highlight.hover, Some(Hit::Curve { id, .. }) if id == curve.id);
+    let is_selected = highlight.selected_curve == Some(curve.id);
+    Style {
+        fill,
+        outline: theme.selected,
+        half_width: half_width + if is_hovered { THICKER } else { 0.0 },
+        outline_width: if is_selected { SELECTED } else { 0.0 },
+        hidden: if is_hovered || is_selected { 2.0 * HIDDEN_CURVE } else { HIDDEN_CURVE },
+        flags: 0,
+    }
+}
+
+fn point_style(id: PointId, highlight: &Highlight, theme: &Theme) -> Style {
+    let is_held = highlight.held == Some(id);
+    let is_hovered = is_held || matches!(highlight.hover, Some(Hit::Point { id: over, .. }) if over == id);
+    let is_selected = is_held || highlight.selected.contains(&id);
+    let (outline, outline_width) = if is_selected { (theme.selected, SELECTED) } else { (theme.halo, HALO) };
+    Style {
+        fill: theme.point,
+        outline,
+        half_width: POINT + if is_hovered { THICKER } else { 0.0 },
+        outline_width,
+        hidden: if is_hovered || is_selected { 2.0 * HIDDEN_POINT } else { HIDDEN_POINT },
+        flags: 0,
+    }
+}
+
+/// Adds what pointer and tools mark: the ring, points and lines to be.
+pub(crate) fn add_highlight(marks: &mut Marks, camera: &Camera, highlight: &Highlight, theme: &Theme) {
+    match highlight.hover {
+        Some(Hit::Surface { at, normal, .. }) => add_ring(marks, camera, at, normal, theme),
+        Some(Hit::Curve { at, .. }) => marks.add_dot(at, ghost(theme)),
+        Some(Hit::Point { .. }) | None => {}
+    }
+    if highlight.ghost_line.len() > 1 {
+        let fill = theme.curve.with_w(0.75);
+        let style = Style { fill, half_width: CURVE, hidden: 0.5, ..Style::default() };
+        marks.add_polyline(highlight.ghost_line.iter().copied(), false, style);
+    }
+    for at in &highlight.ghost {
+        marks.add_dot(*at, ghost(theme));
+    }
+}
+
+/// A point that is not there yet.
+fn ghost(theme: &Theme) -> Style {
+    Style {
+        fill: theme.point.with_w(0.55),
+        outline: theme.halo,
+        half_width: POINT - 0.6,
+        outline_width: HALO,
+        hidden: 0.6,
+        flags: 0,
+    }
+}
+
+/// A small ring that lies on the surface, with a dot in its middle.
+fn add_ring(marks: &mut Marks, camera: &Camera, at: Vec3, normal: Vec3, theme: &Theme) {
+    let (u, v) = normal.try_normalize().unwrap_or(-camera.forward()).any_orthonormal_pair();
+    let radius = RING * camera.unit_per_pixel(at);
+    let place = |corner: u8| {
+        let (s, c) = (TAU * f32::from(corner) / f32::from(RING_CORNERS)).sin_cos();
+        at + (u * c + v * s) * radius
+    };
+    let ring = Style {
+        fill: theme.accent,
+        outline: theme.halo.with_w(0.6),
+        half_width: 0.9,
+        outline_width: 0.9,
+        hidden: 0.3,
+        flags: 0,
+    };
+    marks.add_polyline((0..RING_CORNERS).map(place), true, ring);
+    let dot = Style { fill: theme.accent, half_width: 1.6, outline_width: 0.9, ..ring };
+    marks.add_dot(at, Style { outline: Vec4::new(1.0, 1.0, 1.0, 0.5), ..dot });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sample;
+    use ductile_spec::CurveId;
+
+    #[test]
+    fn points_are_marked_from_back_to_front() {
+        let scene = sample::bumpy_disc(6);
+        let camera = Camera::default();
+        let (mut skeleton, mut marks) = (Skeleton::default(), Marks::default());
+        skeleton.take_structure(&scene, &mut Vec::new());
+        skeleton.take_frame(&scene);
+        skeleton.mark(&mut marks, &camera, &Highlight::default(), &Theme::new(false));
+        let depths: Vec<f32> = marks
+            .dots
+            .iter()
+            .map(|dot| {
+                let at = dot.at as usize;
+                camera.depth(Vec3::from_slice(&scene.floats[at..at + 3]))
+            })
+            .collect();
+        assert_eq!(depths.len(), scene.structure.points.len());
+        assert!(depths.is_sorted_by(|a, b| a >= b));
+    }
+
+    #[test]
+    fn segments_stand_on_the_samples() {
+        let scene = sample::bumpy_disc(6);
+        let mut segments = Vec::new();
+        Skeleton::default().take_structure(&scene, &mut segments);
+        let [boundary, inner] = [scene.structure.curves[0], scene.structure.curves[1]];
+        assert_eq!(segments.len() as u32, boundary.count + inner.count - 1);
+        let at = segments[0].start as usize;
+        let first = scene.samples(boundary.id).next().unwrap();
+        assert_eq!(Vec3::from_slice(&scene.floats[at..at + 3]), first);
+        assert!(segments.iter().all(|s| (s.after as usize) < scene.structure.points_at()));
+    }
+
+    #[test]
+    fn hover_thickens_and_selection_outlines() {
+        let theme = Theme::new(false);
+        let scene = sample::bumpy_disc(6);
+        let curve = &scene.structure.curves[0];
+        let plain = curve_style(curve, &Highlight::default(), &theme);
+        let hover = Some(Hit::Curve { id: curve.id, at: Vec3::ZERO });
+        let marked = Highlight { hover, selected_curve: Some(CurveId(1)), ..Highlight::default() };
+        let style = curve_style(curve, &marked, &theme);
+        assert!(style.half_width > plain.half_width && style.outline_width > plain.outline_width);
+        let held = Highlight { held: Some(PointId(3)), ..Highlight::default() };
+        assert_eq!(point_style(PointId(3), &held, &theme).outline, theme.selected);
+        assert_eq!(point_style(PointId(2), &held, &theme).outline, theme.halo);
+    }
+
+    #[test]
+    fn the_ring_lies_in_the_tangent_plane() {
+        let (mut marks, camera) = (Marks::default(), Camera::default());
+        let normal = Vec3::new(1.0, 2.0, 2.0) / 3.0;
+        let hit =
+            Hit::Surface { id: ductile_spec::SurfaceId(1), at: Vec3::splat(0.1), normal, triangle: 0 };
+        let highlight = Highlight { hover: Some(hit), ..Highlight::default() };
+        add_highlight(&mut marks, &camera, &highlight, &Theme::new(false));
+        assert_eq!(marks.segments.len(), usize::from(RING_CORNERS));
+        let radius = RING * camera.unit_per_pixel(Vec3::splat(0.1));
+        for at in marks.floats.chunks_exact(3).take(usize::from(RING_CORNERS)) {
+            let offset = Vec3::from_slice(at) - Vec3::splat(0.1);
+            assert!(offset.dot(normal).abs() < 1e-5 && (offset.length() - radius).abs() < 1e-5);
+        }
+    }
+}

@@ -1,0 +1,93 @@
+// Surfaces: Phong per fragment, two-sided, also where a surface has one side only.
+//
+// Vertices are pulled from storage, triangle by triangle, because on a Möbius strip the normals of
+// neighbouring vertices may point to different sides: each is turned to the side of the triangle before it
+// is interpolated. The same corners give barycentric coordinates, and with them the mesh lines.
+
+struct SurfaceStyle {
+    // Display colour of a tool's tint; a: how strong.
+    tint: vec4f,
+    // x: 1 if the surface has two sides, which then differ.
+    sides: vec4f,
+}
+
+@group(1) @binding(0) var<storage, read> floats: array<f32>;
+@group(1) @binding(1) var<storage, read> indices: array<u32>;
+@group(1) @binding(2) var<storage, read> styles: array<SurfaceStyle>;
+
+struct Facet {
+    @builtin(position) clip: vec4f,
+    @location(0) at: vec3f,
+    @location(1) normal: vec3f,
+    @location(2) weights: vec3f,
+    @location(3) @interpolate(flat) flat_normal: vec3f,
+    @location(4) @interpolate(flat) style: u32,
+}
+
+fn vector(at: u32) -> vec3f {
+    return vec3f(floats[at], floats[at + 1u], floats[at + 2u]);
+}
+
+@vertex
+fn surface_vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) surface: u32) -> Facet {
+    let corner = index % 3u;
+    let first = index - corner;
+    let a = vector(6u * indices[first]);
+    let b = vector(6u * indices[first + 1u]);
+    let c = vector(6u * indices[first + 2u]);
+    let flat_normal = cross(b - a, c - a);
+    let own = 6u * indices[index];
+    let at = vector(own);
+    let normal = vector(own + 3u);
+    var facet: Facet;
+    facet.clip = frame.clip_from_world * vec4f(at, 1.0);
+    facet.at = at;
+    facet.normal = select(normal, -normal, dot(normal, flat_normal) < 0.0);
+    facet.weights = vec3f(vec3u(corner) == vec3u(0u, 1u, 2u));
+    facet.flat_normal = flat_normal;
+    facet.style = surface;
+    return facet;
+}
+
+// Light that a place sends to the eye. `n` is on the side of the eye.
+fn lit(albedo: vec3f, n: vec3f, to_eye: vec3f) -> vec3f {
+    let facing = max(dot(n, to_eye), 0.0);
+    // The terminator is softened a little, as by a large lamp.
+    let key = max((dot(n, frame.key.xyz) + 0.2) / 1.2, 0.0);
+    let fill = max((dot(n, frame.fill.xyz) + 0.4) / 1.4, 0.0);
+    let above = mix(frame.ground.rgb, frame.sky.rgb, 0.5 + 0.5 * n.z);
+    var light = albedo * (above + vec3f(1.0, 0.965, 0.91) * (frame.key.w * key * sqrt(key)) + vec3f(0.78, 0.88, 1.0) * (frame.fill.w * fill));
+    let half_way = normalize(frame.key.xyz + to_eye);
+    let shine = max(dot(n, half_way), 0.0);
+    light += vec3f(1.0, 0.98, 0.95) * frame.key.w * (0.16 * pow(shine, 56.0) + 0.05 * pow(shine, 10.0));
+    let rim = pow(1.0 - facing, 4.0);
+    light += frame.sky.rgb * (0.55 * rim * (0.6 + 0.4 * n.z));
+    return light;
+}
+
+@fragment
+fn surface_fragment(in: Facet) -> @location(0) vec4f {
+    let style = styles[in.style];
+    let to_eye = toward_eye(in.at);
+    let is_front = dot(in.flat_normal, to_eye) >= 0.0;
+    var n = normalize(in.normal);
+    n = select(-n, n, is_front);
+    // Near the outline the smooth normal may point away although the triangle is seen: bend it back.
+    n = normalize(n - to_eye * min(dot(n, to_eye) - 0.02, 0.0));
+    let is_back = !is_front && style.sides.x > 0.5;
+    let albedo = select(frame.front.rgb, frame.back.rgb, is_back);
+    var colour = encoded(softened(lit(albedo, n, to_eye)));
+    colour = mix(colour, style.tint.rgb, style.tint.a);
+
+    let edge = in.weights / max(fwidth(in.weights), vec3f(1e-6));
+    let nearest = min(edge.x, min(edge.y, edge.z));
+    let line = frame.options.z * frame.wire.a * clamp(0.5 * frame.options.x + 0.5 - nearest, 0.0, 1.0);
+    return vec4f(mix(colour, frame.wire.rgb, line), 1.0);
+}
+
+// Leaves the darks as they are and bends the lights below white.
+fn softened(light: vec3f) -> vec3f {
+    let knee = vec3f(0.6);
+    let over = max(light - knee, vec3f(0.0));
+    return min(light, knee) + 0.4 * over / (over + 0.4);
+}
