@@ -1,0 +1,49 @@
+//! The page itself: everything that touches the browser.
+//!
+//! One [`page::Page`] holds the state. Events come in as closures through [`act`], one at a time and never
+//! inside one another; each may change the state, and afterwards the page sends what is to be sent and asks
+//! for one picture. Nothing waits for the worker.
+
+#[cfg(target_arch = "wasm32")]
+mod canvas;
+#[cfg(target_arch = "wasm32")]
+mod commands;
+#[cfg(target_arch = "wasm32")]
+mod dom;
+#[cfg(target_arch = "wasm32")]
+mod files;
+#[cfg(target_arch = "wasm32")]
+mod gestures;
+#[cfg(target_arch = "wasm32")]
+mod inspect;
+#[cfg(target_arch = "wasm32")]
+mod journal;
+#[cfg(target_arch = "wasm32")]
+mod keyboard;
+#[cfg(target_arch = "wasm32")]
+mod link;
+#[cfg(target_arch = "wasm32")]
+mod notice;
+#[cfg(target_arch = "wasm32")]
+mod opening;
+#[cfg(target_arch = "wasm32")]
+mod page;
+#[cfg(target_arch = "wasm32")]
+mod panel;
+#[cfg(target_arch = "wasm32")]
+mod port;
+#[cfg(target_arch = "wasm32")]
+mod replies;
+#[cfg(target_arch = "wasm32")]
+mod settings;
+#[cfg(target_arch = "wasm32")]
+mod stage;
+
+#[cfg(target_arch = "wasm32")]
+pub use inspect::{inspect, provoke};
+
+/// Starts the page; elsewhere than in a browser there is nothing to start.
+pub fn start() {
+    #[cfg(target_arch = "wasm32")]
+    page::start();
+}

@@ -1,0 +1,253 @@
+//! Commands: what buttons and menu items ask for by their `data-command`.
+
+use super::page::{Page, act};
+use super::{dom, files};
+use crate::View;
+use crate::tool::{Selection, ToolKind};
+use ductile_spec::{Edit, Example, PointId, Request};
+use wasm_bindgen::JsCast;
+use web_sys::{Element, Event, HtmlDialogElement, HtmlElement, MouseEvent};
+
+/// Menus with the buttons that open them.
+const MENUS: [(&str, &str); 3] =
+    [("file-button", "file-menu"), ("edit-button", "edit-menu"), ("look-button", "look-menu")];
+
+/// Listens to all buttons, present and future.
+pub(crate) fn listen() {
+    dom::listen(&dom::document(), "click", |event: MouseEvent| {
+        let target = event.target().and_then(|target| target.dyn_into::<Element>().ok());
+        let button = target.and_then(|target| target.closest("[data-command]").ok().flatten());
+        let Some(button) = button else { return };
+        let Some(command) = button.get_attribute("data-command") else { return };
+        let subject = button.get_attribute("data-subject").or_else(|| button.get_attribute("data-banner"));
+        let checks = button.get_attribute("aria-checked").is_some();
+        if !checks {
+            close_menus();
+        }
+        if command == "open" {
+            // Browsers open the file chooser only in the very event of the designer's act.
+            files::choose();
+        }
+        act(move |page| page.command(&command, subject.as_deref()));
+    });
+    for (button, menu) in MENUS {
+        let button = dom::element(button);
+        let menu = dom::element(menu);
+        let own = menu.clone();
+        dom::listen(&menu, "beforetoggle", move |event: Event| {
+            let opens = dom::field(&event, "newState").as_string().as_deref() == Some("open");
+            dom::attribute(&button, "aria-expanded", if opens { "true" } else { "false" });
+            if opens {
+                place_below(&own, &button);
+            }
+        });
+    }
+    list_examples();
+}
+
+/// Closes the menus.
+pub(crate) fn close_menus() {
+    for (_, menu) in MENUS {
+        let _ = dom::element(menu).hide_popover();
+    }
+}
+
+/// A menu hangs below its button, within the window.
+fn place_below(menu: &HtmlElement, button: &HtmlElement) {
+    let place = button.get_bounding_client_rect();
+    let width = dom::window().inner_width().ok().and_then(|width| width.as_f64()).unwrap_or(1024.0);
+    let style = menu.style();
+    let _ = style.set_property("top", &format!("{}px", place.bottom() + 8.0));
+    if place.left() < 0.5 * width {
+        let left = (place.left() - 4.0).min(width - 300.0).max(8.0);
+        let _ = style.set_property("left", &format!("{left}px"));
+        let _ = style.set_property("right", "auto");
+    } else {
+        let _ = style.set_property("right", &format!("{}px", (width - place.right() - 4.0).max(8.0)));
+        let _ = style.set_property("left", "auto");
+    }
+}
+
+fn list_examples() {
+    let shelf = dom::element("examples");
+    for example in Example::ALL {
+        let button = dom::command_button("", "", "example");
+        dom::attribute(&button, "role", "menuitem");
+        dom::attribute(&button, "data-subject", example.word());
+        let title = dom::create_with("span", "", example.title());
+        dom::append(&button, [&dom::icon(&format!("t-{}", example.word())), &title]);
+        dom::append(&shelf, [&button]);
+    }
+}
+
+impl Page {
+    /// Does what a button asks for.
+    pub(crate) fn command(&mut self, command: &str, subject: Option<&str>) {
+        if let Some(word) = command.strip_prefix("tool-") {
+            if let Some(kind) = ToolKind::ALL.into_iter().find(|kind| kind.word() == word) {
+                self.choose_tool(kind);
+            }
+        } else if let Some(name) = command.strip_prefix("look-") {
+            self.toggle_look(name);
+        } else if let Some(theme) = command.strip_prefix("theme-") {
+            self.choose_theme(theme);
+        } else if let Some(name) = command.strip_prefix("view-") {
+            self.look_from(name);
+        } else if !self.document_command(command, subject) {
+            self.page_command(command, subject);
+        }
+        self.refresh();
+    }
+
+    fn document_command(&mut self, command: &str, subject: Option<&str>) -> bool {
+        match command {
+            "new" => self.request(Request::New),
+            "save" => self.save(),
+            "export-obj" => self.export(),
+            "link" => self.copy_link(),
+            "example" => {
+                if let Some(example) = Example::ALL.into_iter().find(|e| Some(e.word()) == subject) {
+                    self.request(Request::OpenExample(example));
+                }
+            }
+            "undo" => self.undo(),
+            "redo" => self.request(Request::Redo),
+            "reset" => self.reset(),
+            "delete" => self.delete_selected(),
+            "release" => {
+                if let Selection::Point(point) = self.selection {
+                    self.request(Request::Edit(Edit::Release { point }));
+                }
+            }
+            _ => return false,
+        }
+        true
+    }
+
+    fn page_command(&mut self, command: &str, subject: Option<&str>) {
+        match command {
+            "fit" => self.fit_all(),
+            "focus" => self.focus_selected(),
+            "projection" => self.camera.toggle_projection(),
+            "store-view" => {
+                self.camera.store();
+                self.notices.say("This view is stored; 0 comes back to it.");
+            }
+            "recall-view" => match self.camera.recall() {
+                Some(pose) => self.fly_to(pose),
+                None => self.notices.refusal("No view is stored yet. Shift+0 stores the present one."),
+            },
+            "hide" => self.panel.toggle_bare(),
+            "scene" => self.panel.toggle_side(),
+            "help" => open_dialog("keys"),
+            "close-dialog" => close_dialogs(),
+            "dismiss" => self.notices.dismiss(subject.unwrap_or_default()),
+            "select" => self.select_listed(subject.unwrap_or_default()),
+            "restart" => self.restart_worker(),
+            "redo-stage" => self.retry_stage(),
+            _ => {}
+        }
+    }
+
+    /// Takes a tool in hand.
+    pub(crate) fn choose_tool(&mut self, kind: ToolKind) {
+        self.tools.choose(kind);
+        self.hand.hover_is_stale = true;
+        self.notices.hide_toast();
+        self.refresh();
+    }
+
+    /// Takes back the last act; in the middle of a drag, the drag.
+    pub(crate) fn undo(&mut self) {
+        if !self.abandon_drag() {
+            self.request(Request::Undo);
+        }
+    }
+
+    /// Deletes what is selected, or releases it if something hangs on it.
+    pub(crate) fn delete_selected(&mut self) {
+        match self.selection.removal(&self.scene.structure) {
+            Some(edit) => self.request(Request::Edit(edit)),
+            None => self.notices.refusal("Nothing is selected. Click a point, a curve or a surface first."),
+        }
+    }
+
+    fn reset(&mut self) {
+        if let Some(text) = self.opened.clone() {
+            self.resetting = true;
+            self.request(Request::OpenText { text });
+        }
+    }
+
+    fn focus_selected(&mut self) {
+        let at = match self.selection {
+            Selection::Point(id) => self.scene.point(id),
+            Selection::Curve(id) => {
+                let count = self.scene.samples(id).len().max(1);
+                let sum: glam::Vec3 = self.scene.samples(id).sum();
+                Some(sum / glam::DVec2::new(count as f64, 0.0).as_vec2().x)
+            }
+            Selection::Surface(_) | Selection::None => None,
+        };
+        match at {
+            Some(at) => {
+                let pose = self.camera.pose_that_focuses(at);
+                self.fly_to(pose);
+            }
+            None => self.fit_all(),
+        }
+    }
+
+    fn look_from(&mut self, name: &str) {
+        let view = match name {
+            "front" => View::Front,
+            "back" => View::Back,
+            "right" => View::Right,
+            "left" => View::Left,
+            "top" => View::Top,
+            "bottom" => View::Bottom,
+            _ => return,
+        };
+        let pose = self.camera.pose_from(view);
+        self.fly_to(pose);
+    }
+
+    /// A thing of the scene list was chosen: it is selected, and given to a tool that wants such a thing.
+    fn select_listed(&mut self, subject: &str) {
+        let Some((kind, number)) = subject.split_once(' ') else { return };
+        let Ok(number) = number.parse::<u32>() else { return };
+        self.selection = match kind {
+            "point" => Selection::Point(PointId(number)),
+            "curve" => Selection::Curve(ductile_spec::CurveId(number)),
+            "surface" => Selection::Surface(ductile_spec::SurfaceId(number)),
+            _ => return,
+        };
+        let wants = match self.tools.kind() {
+            ToolKind::Sheet | ToolKind::Sweep => matches!(self.selection, Selection::Curve(_)),
+            ToolKind::Curve => matches!(self.selection, Selection::Point(_)),
+            ToolKind::Shape | ToolKind::Point => false,
+        };
+        if wants {
+            self.take_selected();
+        }
+    }
+}
+
+/// Opens a dialog of index.html.
+pub(crate) fn open_dialog(id: &str) {
+    let dialog: HtmlDialogElement = dom::element_as(id);
+    if !dialog.open() {
+        let _ = dialog.show_modal();
+    }
+}
+
+fn close_dialogs() {
+    for id in ["keys", "link-dialog"] {
+        dom::element_as::<HtmlDialogElement>(id).close();
+    }
+}
+
+/// Whether a dialog has the keyboard.
+pub(crate) fn dialog_is_open() -> bool {
+    ["keys", "link-dialog"].iter().any(|id| dom::element_as::<HtmlDialogElement>(id).open())
+}

@@ -1,0 +1,318 @@
+//! What gestures do: to the tools, to what is held, to the eye.
+
+use super::dom;
+use super::page::Page;
+use crate::input::{Button, Gesture, Modifiers, Pointer, Recogniser};
+use crate::tool::{Act, Aim, Drag, Selection, Surroundings, ToolKind, entry, grid_step, work_plane};
+use crate::{Hit, Pose, View, Wanted, pick, pick_among};
+use ductile_spec::{Edit, PointRole, Request};
+use glam::{Vec2, Vec3};
+
+/// How near the pointer must come to a point or a curve, in CSS pixels: a mouse, a fingertip.
+const REACH: f32 = 9.0;
+const FINGER_REACH: f32 = 20.0;
+/// How near to a corner of a curve under way.
+const CORNER_REACH: f32 = 12.0;
+
+/// The hand on the canvas.
+#[derive(Debug, Default)]
+pub(crate) struct Hand {
+    recogniser: Recogniser,
+    pub(crate) drag: Option<Drag>,
+    pub(crate) cursor: Option<Vec2>,
+    pub(crate) modifiers: Modifiers,
+    pub(crate) hover: Option<Hit>,
+    pub(crate) hover_view: Option<View>,
+    pub(crate) hover_is_stale: bool,
+    pub(crate) is_finger: bool,
+    pivot: Vec3,
+}
+
+impl Hand {
+    /// What is pressed means nothing any more.
+    pub(crate) fn forget(&mut self) {
+        self.drag = None;
+        self.recogniser.abandon();
+    }
+
+    fn reach(&self) -> f32 {
+        if self.is_finger { FINGER_REACH } else { REACH }
+    }
+}
+
+impl Page {
+    /// A button or finger goes down on the canvas.
+    pub(crate) fn pointer_down(&mut self, pointer: Pointer, button: Button) {
+        self.hand.cursor = Some(pointer.at);
+        self.hand.modifiers = pointer.modifiers;
+        let on_triad = self.settings.look.triad && self.camera.triad_hit(pointer.at).is_some();
+        let holds = self.tools.holds() && !on_triad && self.thing_at(pointer.at).is_some();
+        let gestures = self.hand.recogniser.down(pointer, button, holds);
+        self.run(gestures);
+    }
+
+    /// A pointer moves over the canvas.
+    pub(crate) fn pointer_moved(&mut self, pointer: Pointer, pressed: bool) {
+        self.hand.modifiers = pointer.modifiers;
+        let gestures = self.hand.recogniser.moved(pointer, pressed);
+        self.run(gestures);
+    }
+
+    /// A button or finger goes up.
+    pub(crate) fn pointer_up(&mut self, pointer: Pointer) {
+        let gestures = self.hand.recogniser.up(pointer);
+        self.run(gestures);
+    }
+
+    /// The browser takes a pointer away, or its capture was lost.
+    pub(crate) fn pointer_lost(&mut self, id: i32) {
+        let gestures = self.hand.recogniser.cancelled(id);
+        self.run(gestures);
+    }
+
+    /// The pointer leaves the canvas.
+    pub(crate) fn pointer_left(&mut self) {
+        if !self.hand.recogniser.is_busy() {
+            self.hand.cursor = None;
+            self.hand.hover_is_stale = true;
+            self.redraw();
+        }
+    }
+
+    /// The wheel turns.
+    pub(crate) fn wheel(&mut self, at: Vec2, by: Vec2, modifiers: Modifiers) {
+        self.run(Recogniser::wheel(at, by, modifiers));
+    }
+
+    /// Gives up a drag; says whether there was one.
+    pub(crate) fn abandon_drag(&mut self) -> bool {
+        let had = self.hand.drag.is_some();
+        let gestures = self.hand.recogniser.abandon();
+        self.run(gestures);
+        had
+    }
+
+    fn run(&mut self, gestures: impl IntoIterator<Item = Gesture>) {
+        for gesture in gestures {
+            self.meant(gesture);
+        }
+        self.hand.hover_is_stale = true;
+        self.redraw();
+    }
+
+    fn meant(&mut self, gesture: Gesture) {
+        match gesture {
+            Gesture::Hover(at) => self.hand.cursor = Some(at),
+            Gesture::Click { at, modifiers } => self.clicked(at, modifiers),
+            Gesture::DoubleClick { at } => self.double_clicked(at),
+            Gesture::Grab { at } => self.grab(at),
+            Gesture::Drag { at, modifiers } => {
+                self.hand.cursor = Some(at);
+                self.hand.modifiers = modifiers;
+                self.follow_cursor();
+            }
+            Gesture::Drop => {
+                self.schedule.drop_held();
+                self.hand.drag = None;
+                self.refresh();
+            }
+            Gesture::Abandon => {
+                self.schedule.cancel_held();
+                self.hand.drag = None;
+                self.notices.say("Everything is back where it was.");
+                self.refresh();
+            }
+            Gesture::OrbitFrom(at) => {
+                self.hand.pivot = self.place_under(at);
+            }
+            Gesture::Orbit(by) => self.camera.orbit(self.hand.pivot, by),
+            Gesture::Pan { by, at } => {
+                let under = self.place_under(at);
+                self.camera.pan(under, by);
+            }
+            Gesture::Zoom { at, factor } => match self.thing_at(at) {
+                Some(hit) => self.camera.zoom_about(hit.at(), factor),
+                None => self.camera.zoom_to(at, factor),
+            },
+            Gesture::Undo => self.request(Request::Undo),
+            Gesture::Redo => self.request(Request::Redo),
+        }
+    }
+
+    /// What a press at a place would take.
+    fn thing_at(&self, at: Vec2) -> Option<Hit> {
+        pick_among(&self.scene, &self.camera, at, self.hand.reach(), self.wanted())
+    }
+
+    /// What the tool in hand could take, among what is shown.
+    fn wanted(&self) -> Wanted {
+        let look = &self.settings.look;
+        let kind = self.tools.kind();
+        let shape = matches!(kind, ToolKind::Shape | ToolKind::Point | ToolKind::Curve);
+        Wanted {
+            points: look.skeleton && shape,
+            curves: look.skeleton,
+            surfaces: look.surface && shape,
+            except: None,
+        }
+    }
+
+    /// The thing under the pointer, or the middle of the model.
+    fn place_under(&self, at: Vec2) -> Vec3 {
+        if let Some(hit) = pick(&self.scene, &self.camera, at, self.hand.reach()) {
+            return hit.at();
+        }
+        let centre = self.scene.bounds().map_or(Vec3::ZERO, |(centre, _)| centre);
+        if self.camera.project(centre).is_some() { centre } else { self.camera.pose().centre }
+    }
+
+    /// The step of the grid that suits the model.
+    pub(crate) fn grid(&self) -> f64 {
+        grid_step(self.scene.bounds().map_or(1.0, |(_, radius)| radius))
+    }
+
+    fn clicked(&mut self, at: Vec2, modifiers: Modifiers) {
+        if self.settings.look.triad
+            && let Some(view) = self.camera.triad_hit(at)
+        {
+            let pose = self.camera.pose_from(view);
+            self.fly_to(pose);
+            return;
+        }
+        let hit = self.thing_at(at);
+        let aim =
+            Aim { hit: hit.as_ref(), place: self.place_on_plane(at, modifiers), corner: self.corner_at(at) };
+        let around =
+            Surroundings { structure: &self.scene.structure, next_point: self.document.next_point() };
+        let acts = self.tools.click(aim, around);
+        self.perform(acts);
+    }
+
+    fn double_clicked(&mut self, at: Vec2) {
+        if self.tools.kind() != ToolKind::Shape {
+            self.clicked(at, self.hand.modifiers);
+            return;
+        }
+        match self.thing_at(at) {
+            Some(Hit::Point { id, .. }) => {
+                let role = entry(&self.scene.structure, id).map(|entry| entry.role);
+                if role.is_some_and(|role| role != PointRole::Free) {
+                    self.request(Request::Edit(Edit::Release { point: id }));
+                }
+            }
+            Some(hit) => {
+                let pose = self.camera.pose_that_focuses(hit.at());
+                self.fly_to(pose);
+            }
+            None => self.fit_all(),
+        }
+    }
+
+    fn grab(&mut self, at: Vec2) {
+        let Some(hit) = self.thing_at(at) else { return };
+        let mut drag = Drag::begin(&hit, at);
+        let below = Wanted { points: false, curves: false, ..Wanted::ALL };
+        if let Some(Hit::Surface { normal, .. }) = pick_among(&self.scene, &self.camera, at, 0.0, below) {
+            drag.set_normal(Some(normal));
+        }
+        self.schedule.grab(drag.target());
+        self.hand.drag = Some(drag);
+        self.panel.welcome_is_over = true;
+        self.refresh();
+    }
+
+    /// The held thing goes where the pointer is.
+    pub(crate) fn follow_cursor(&mut self) {
+        let (Some(drag), Some(cursor)) = (&self.hand.drag, self.hand.cursor) else { return };
+        if let Some(place) = drag.place(&self.camera, cursor, self.hand.modifiers, self.grid()) {
+            self.schedule.drag_to(place);
+        }
+    }
+
+    /// The place on the work plane under the pointer, on the grid with Ctrl.
+    pub(crate) fn place_on_plane(&self, at: Vec2, modifiers: Modifiers) -> Option<Vec3> {
+        let plane = work_plane(self.camera.forward());
+        let place = self.camera.ray(at).meets_plane(plane.origin, plane.normal())?;
+        let far = 50.0 * self.camera.pose().distance;
+        if !place.is_finite() || place.distance(self.camera.eye()) > far {
+            return None;
+        }
+        if !modifiers.ctrl {
+            return Some(place);
+        }
+        let grid = self.grid();
+        Some(((place.as_dvec3() / grid).round() * grid).as_vec3())
+    }
+
+    pub(crate) fn corner_at(&self, at: Vec2) -> Option<usize> {
+        let near = |corner: &crate::tool::Corner| {
+            self.camera.project(corner.at).is_some_and(|place| place.distance(at) < CORNER_REACH)
+        };
+        self.tools.corners().iter().position(near)
+    }
+
+    /// Does what a tool wants done.
+    pub(crate) fn perform(&mut self, acts: Vec<Act>) {
+        for act in acts {
+            match act {
+                Act::Edit(edit) => self.request(Request::Edit(edit)),
+                Act::Select(selection) => self.selection = selection,
+                Act::Say(text) => self.notices.refusal(&text),
+                Act::Leave => self.tools.choose(ToolKind::Shape),
+            }
+        }
+        self.refresh();
+    }
+
+    /// The tool in hand takes the selected thing, or the middle of the picture: for those without a pointer.
+    pub(crate) fn take_selected(&mut self) {
+        let hit = match self.selection {
+            Selection::Point(id) => self.scene.point(id).map(|at| Hit::Point { id, at }),
+            Selection::Curve(id) => self.scene.samples(id).next().map(|at| Hit::Curve { id, at }),
+            Selection::Surface(_) | Selection::None => None,
+        };
+        let middle = self.camera.viewport() * 0.5;
+        let place = self.place_on_plane(middle, Modifiers::default());
+        let hit = hit.filter(|_| self.tools.kind() != ToolKind::Point);
+        let aim = Aim { hit: hit.as_ref(), place, corner: None };
+        let around =
+            Surroundings { structure: &self.scene.structure, next_point: self.document.next_point() };
+        let acts = self.tools.click(aim, around);
+        self.perform(acts);
+    }
+
+    /// Brings everything into view.
+    pub(crate) fn fit_all(&mut self) {
+        if let Some((centre, radius)) = self.scene.bounds() {
+            let pose = self.camera.pose_that_fits(centre, radius);
+            self.fly_to(pose);
+        }
+    }
+
+    /// Goes to a pose, in flight unless the designer wants no motion.
+    pub(crate) fn fly_to(&mut self, pose: Pose) {
+        if dom::media("(prefers-reduced-motion: reduce)") {
+            self.camera.set_pose(pose);
+        } else {
+            self.camera.fly_to(pose, dom::now());
+        }
+        self.redraw();
+    }
+
+    /// Finds out what lies under the pointer, if it may have changed.
+    pub(crate) fn update_hover(&mut self) {
+        if !std::mem::take(&mut self.hand.hover_is_stale) {
+            return;
+        }
+        self.hand.hover = None;
+        self.hand.hover_view = None;
+        let Some(at) = self.hand.cursor else { return };
+        if self.hand.recogniser.is_busy() || self.hand.is_finger {
+            return;
+        }
+        self.hand.hover_view = self.camera.triad_hit(at).filter(|_| self.settings.look.triad);
+        if self.hand.hover_view.is_none() {
+            self.hand.hover = self.thing_at(at);
+        }
+    }
+}

@@ -1,0 +1,218 @@
+//! The keyboard.
+
+use super::page::{Page, act};
+use super::{commands, dom, files};
+use crate::tool::{Arrow, Axis, Selection, Surroundings, ToolKey, ToolKind, nudge_direction};
+use ductile_spec::{Edit, Request};
+use wasm_bindgen::JsCast;
+use web_sys::{Element, KeyboardEvent};
+
+/// A key press, apart from its event.
+#[derive(Clone, Debug)]
+struct Key {
+    name: String,
+    code: String,
+    shift: bool,
+    ctrl: bool,
+    alt: bool,
+    on_canvas: bool,
+}
+
+/// Listens to the whole window.
+pub(crate) fn listen() {
+    dom::listen(&dom::window(), "keydown", |event: KeyboardEvent| {
+        let target = event.target().and_then(|target| target.dyn_into::<Element>().ok());
+        let is_typing =
+            target.as_ref().is_some_and(|t| t.matches("input, textarea, select").unwrap_or(false));
+        if commands::dialog_is_open() || event.is_composing() {
+            return;
+        }
+        let key = Key {
+            name: event.key(),
+            code: event.code(),
+            shift: event.shift_key(),
+            ctrl: event.ctrl_key() || event.meta_key(),
+            alt: event.alt_key(),
+            on_canvas: target.as_ref().is_none_or(|t| t.id() == "view" || t.tag_name() == "BODY"),
+        };
+        // Inside a field the keys belong to the field, but for those that save and open.
+        let is_global = key.ctrl && matches!(key.name.to_lowercase().as_str(), "s" | "o");
+        // A focused button or menu keeps Space, Enter, Tab and the arrows.
+        let is_local = matches!(key.name.as_str(), " " | "Enter" | "Tab") || key.name.starts_with("Arrow");
+        if (is_typing && !is_global) || (!key.on_canvas && is_local) {
+            return;
+        }
+        if is_understood(&key) {
+            event.prevent_default();
+            if key.ctrl && key.name.eq_ignore_ascii_case("o") {
+                files::choose();
+                return;
+            }
+            act(move |page| page.pressed(&key));
+        }
+    });
+    for event in ["keydown", "keyup"] {
+        dom::listen(&dom::window(), event, |event: KeyboardEvent| {
+            let ctrl = event.ctrl_key() || event.meta_key();
+            let (shift, alt) = (event.shift_key(), event.alt_key());
+            act(move |page| {
+                let modifiers = crate::input::Modifiers { shift, ctrl, alt };
+                if page.hand.modifiers != modifiers && page.hand.drag.is_some() {
+                    page.hand.modifiers = modifiers;
+                    page.follow_cursor();
+                }
+            });
+        });
+    }
+}
+
+/// Keys that the browser must not act on as well.
+fn is_understood(key: &Key) -> bool {
+    let name = key.name.to_lowercase();
+    if key.ctrl {
+        let chord = matches!(name.as_str(), "z" | "y" | "s" | "o") || (name == "c" && key.shift);
+        return chord || digit(&key.code).is_some_and(|digit| matches!(digit, '1' | '3' | '7'));
+    }
+    if key.alt {
+        return false;
+    }
+    match name.as_str() {
+        // Tab walks only where there is something to walk through and the canvas has the focus.
+        "tab" => key.on_canvas && has_canvas_focus() && has_points(),
+        "f1" | "f3" | "f5" | "f6" | "f7" | "f11" | "f12" | "shift" | "control" | "meta" => false,
+        _ => true,
+    }
+}
+
+fn has_canvas_focus() -> bool {
+    dom::document().active_element().is_some_and(|element| element.id() == "view")
+}
+
+fn has_points() -> bool {
+    super::page::look(|page| !page.scene.structure.points.is_empty()).unwrap_or(false)
+}
+
+fn digit(code: &str) -> Option<char> {
+    let digit = code.strip_prefix("Digit").or_else(|| code.strip_prefix("Numpad"))?;
+    digit.chars().next().filter(|c| digit.len() == 1 && c.is_ascii_digit())
+}
+
+impl Page {
+    fn pressed(&mut self, key: &Key) {
+        let name = key.name.to_lowercase();
+        if key.ctrl && self.chord(&name, key.shift) {
+            return;
+        }
+        if let Some(digit) = digit(&key.code) {
+            self.view_key(digit, key.shift || key.ctrl);
+            return;
+        }
+        if let (Some(axis), Some(drag)) = (Axis::of_key(&name), &mut self.hand.drag) {
+            drag.toggle(axis);
+            self.follow_cursor();
+            self.refresh();
+            return;
+        }
+        if let Some(kind) = ToolKind::of_key(&name).filter(|_| self.hand.drag.is_none()) {
+            self.choose_tool(kind);
+            return;
+        }
+        self.plain_key(&name, key);
+        self.refresh();
+    }
+
+    fn chord(&mut self, name: &str, shift: bool) -> bool {
+        match (name, shift) {
+            ("z", false) => self.undo(),
+            ("z", true) | ("y", _) => self.request(Request::Redo),
+            ("s", _) => self.save(),
+            ("c", true) => self.copy_link(),
+            _ => return false,
+        }
+        true
+    }
+
+    fn view_key(&mut self, digit: char, opposite: bool) {
+        let command = match (digit, opposite) {
+            ('1', false) => "view-front",
+            ('1', true) => "view-back",
+            ('3', false) => "view-right",
+            ('3', true) => "view-left",
+            ('7', false) => "view-top",
+            ('7', true) => "view-bottom",
+            ('5', _) => "projection",
+            ('0', false) => "recall-view",
+            ('0', true) => "store-view",
+            _ => return,
+        };
+        self.command(command, None);
+    }
+
+    fn plain_key(&mut self, name: &str, key: &Key) {
+        match name {
+            "escape" => self.escape(),
+            "enter" => self.tool_key(ToolKey::Done),
+            "backspace" if self.tools.is_under_way() => self.tool_key(ToolKey::Back),
+            "backspace" | "delete" => self.delete_selected(),
+            "tab" => {
+                self.selection = self.selection.walk(&self.scene.structure, key.shift);
+                self.announce_selection();
+            }
+            " " => self.take_selected(),
+            "arrowleft" => self.nudge(Arrow::Left, key.shift),
+            "arrowright" => self.nudge(Arrow::Right, key.shift),
+            "arrowup" => self.nudge(Arrow::Up, key.shift),
+            "arrowdown" => self.nudge(Arrow::Down, key.shift),
+            "home" => self.fit_all(),
+            "." => self.command("focus", None),
+            "?" => self.command("help", None),
+            "\\" | "h" => self.command("hide", None),
+            _ => {}
+        }
+    }
+
+    /// Puts a drag back, gives up what a tool has begun, leaves the tool, drops the selection, gives the
+    /// focus back: the first of these that there is.
+    fn escape(&mut self) {
+        if self.abandon_drag() {
+            return;
+        }
+        if self.tools.is_under_way() || self.tools.kind() != ToolKind::Shape {
+            self.tool_key(ToolKey::Escape);
+        } else if self.selection != Selection::None {
+            self.selection = Selection::None;
+        } else {
+            let _ = dom::element("view").blur();
+        }
+        self.notices.hide_toast();
+        self.refresh();
+    }
+
+    fn tool_key(&mut self, key: ToolKey) {
+        let structure = &self.scene.structure;
+        let next_point = self.document.next_point();
+        let acts = self.tools.key(key, Surroundings { structure, next_point });
+        self.perform(acts);
+    }
+
+    fn nudge(&mut self, arrow: Arrow, far: bool) {
+        let Selection::Point(point) = self.selection else {
+            self.notices.refusal("Select a control point first: Tab walks through them.");
+            return;
+        };
+        let (Some(at), Some(exact)) = (self.scene.point(point), self.exact_place(point)) else { return };
+        let step = self.grid() * if far { 1.0 } else { 0.1 };
+        let probe = glam::DVec2::new(step, 0.0).as_vec2().x;
+        if let Some(direction) = nudge_direction(&self.camera, at, arrow, probe) {
+            let to = exact + direction.as_dvec3() * step;
+            self.request(Request::Edit(Edit::Move { point, to }));
+        }
+    }
+
+    fn announce_selection(&mut self) {
+        if let Selection::Point(id) = self.selection {
+            self.notices.say(&format!("Control point {} is selected.", id.0));
+        }
+        self.refresh();
+    }
+}

@@ -1,0 +1,413 @@
+//! What floats at the edges: the scene list, the properties, the status line, the name.
+
+use super::dom;
+use super::page::{Page, act};
+use crate::number;
+use crate::tool::{Selection, ToolKind, entry, span};
+use ductile_spec::{CurveRole, Edit, PointId, PointRole, Request, SurfaceSummary};
+use glam::DVec3;
+use wasm_bindgen::JsCast;
+use web_sys::{Element, Event, HtmlElement, HtmlInputElement, KeyboardEvent};
+
+const COORDINATES: [&str; 3] = ["x", "y", "z"];
+
+/// The elements of the panel and what they show.
+#[derive(Debug)]
+pub(crate) struct Panel {
+    is_stale: bool,
+    figures_are_stale: bool,
+    /// What the scene list shows: it is made anew only if this changes.
+    listed: Option<(u32, Selection)>,
+    pub(crate) welcome_is_over: bool,
+    is_bare: bool,
+    side: HtmlElement,
+    welcome: HtmlElement,
+}
+
+impl Panel {
+    pub(crate) fn new() -> Self {
+        let side = dom::element("side");
+        dom::class(&side, "closed", dom::media("(max-width: 640px)"));
+        Self {
+            is_stale: true,
+            figures_are_stale: true,
+            listed: None,
+            welcome_is_over: false,
+            is_bare: false,
+            side,
+            welcome: dom::element("welcome"),
+        }
+    }
+
+    /// Hides everything but the model, or shows it again.
+    pub(crate) fn toggle_bare(&mut self) {
+        self.is_bare = !self.is_bare;
+        if let Some(body) = dom::document().body() {
+            dom::class(&body, "bare", self.is_bare);
+        }
+    }
+
+    /// Opens or closes scene and properties.
+    pub(crate) fn toggle_side(&mut self) {
+        let closed = !self.side.class_list().contains("closed");
+        dom::class(&self.side, "closed", closed);
+        dom::attribute(&dom::element("scene-button"), "aria-expanded", if closed { "false" } else { "true" });
+    }
+}
+
+/// Listens to the fields.
+pub(crate) fn listen() {
+    let closed = dom::element("side").class_list().contains("closed");
+    dom::attribute(&dom::element("scene-button"), "aria-expanded", if closed { "false" } else { "true" });
+    for (index, id) in COORDINATES.into_iter().enumerate() {
+        on_field(id, move |page, text| page.typed_coordinate(index, text));
+    }
+    on_field("spacing", Page::typed_spacing);
+    on_field("name", |page, text| {
+        let name = text.trim().to_owned();
+        if name != page.document.name {
+            page.request(Request::Edit(Edit::Rename { name }));
+        }
+        None
+    });
+}
+
+/// Takes what was typed when the field is left or Enter is pressed; Escape puts the old text back.
+fn on_field(id: &'static str, typed: impl Fn(&mut Page, &str) -> Option<String> + Copy + 'static) {
+    let field: HtmlInputElement = dom::element_as(id);
+    let own = field.clone();
+    dom::listen(&field, "change", move |_: Event| {
+        let text = own.value();
+        act(move |page| {
+            let error = typed(page, &text);
+            page.show_field_error(id, error.as_deref());
+        });
+    });
+    let own = field.clone();
+    dom::listen(&field, "keydown", move |event: KeyboardEvent| match event.key().as_str() {
+        "Enter" => {
+            let _ = own.blur();
+        }
+        "Escape" => {
+            own.set_value("");
+            let field = own.clone();
+            act(move |page| {
+                page.fill_field(&field);
+                page.show_field_error(id, None);
+                let _ = field.blur();
+            });
+        }
+        _ => {}
+    });
+    dom::listen(&field, "blur", |_: Event| act(|page| page.refresh()));
+}
+
+impl Page {
+    /// The page shows the newest state at the next display tick.
+    pub(crate) fn refresh(&mut self) {
+        self.panel.is_stale = true;
+        self.panel.figures_are_stale = true;
+        self.redraw();
+    }
+
+    /// As [`Self::refresh`], for the status line and numbers only.
+    pub(crate) fn refresh_figures(&mut self) {
+        self.panel.figures_are_stale = true;
+        self.redraw();
+    }
+
+    /// Where a control point is, exactly as the document has it.
+    pub(crate) fn exact_place(&self, id: PointId) -> Option<DVec3> {
+        self.document.points.get(&id).copied().or_else(|| self.scene.point(id).map(|at| at.as_dvec3()))
+    }
+
+    /// Shows what has changed since the last tick.
+    pub(crate) fn update_panel(&mut self) {
+        self.show_cursor();
+        if std::mem::take(&mut self.panel.figures_are_stale) {
+            self.show_figures();
+            self.show_fields();
+        }
+        if std::mem::take(&mut self.panel.is_stale) {
+            self.show_hint();
+            self.show_history();
+            self.show_scene();
+            self.show_properties();
+            let first_time = self.openings == 1 && self.document.surfaces.len() == 1;
+            let welcome = first_time && !self.panel.welcome_is_over && self.scene.has_frame();
+            dom::show(&self.panel.welcome, welcome);
+        }
+    }
+
+    fn show_cursor(&self) {
+        let canvas = dom::element("view");
+        let held = self.hand.drag.is_some();
+        let shapes = self.tools.kind() == ToolKind::Shape;
+        dom::class(&canvas, "held", held);
+        dom::class(&canvas, "over", shapes && !held && self.hand.hover.is_some());
+        dom::class(&canvas, "place", !shapes);
+    }
+
+    fn show_figures(&self) {
+        let figures = &self.scene.header.figures;
+        let rests = self.schedule.is_at_rest();
+        dom::text(&dom::element("figure-nodes"), &format!("{} nodes", figures.nodes));
+        dom::text(&dom::element("figure-energy"), &format!("energy {:.4}", figures.energy));
+        dom::class(&dom::element("state-dot"), "rest", rests);
+        let state = if !self.port.is_ready() {
+            "starting"
+        } else if rests {
+            "at rest"
+        } else {
+            "relaxing"
+        };
+        dom::text(&dom::element("state-text"), state);
+        let time = figures.step_milliseconds;
+        let text = if time > 0.0 && !rests { format!("{time:.1} ms") } else { String::new() };
+        dom::text(&dom::element("figure-time"), &text);
+    }
+
+    fn show_hint(&self) {
+        let hint = match &self.hand.drag {
+            None => self.tools.hint(),
+            Some(drag) if drag.lock().is_some() => {
+                "Along the axis. The same key frees it again, Esc puts everything back."
+            }
+            Some(_) => {
+                "Shift: along the normal · X, Y, Z: along an axis · Ctrl: on the grid · Esc: everything back"
+            }
+        };
+        self.notices.hint(hint);
+        for kind in ToolKind::ALL {
+            let chosen = kind == self.tools.kind();
+            let button = dom::element(&format!("tool-{}", kind.word()));
+            dom::attribute(&button, "aria-pressed", if chosen { "true" } else { "false" });
+        }
+    }
+
+    fn show_history(&self) {
+        let committed = self.committed.as_ref();
+        for (verb, word, label) in [
+            ("Undo", "undo", committed.and_then(|c| c.undo.as_deref())),
+            ("Redo", "redo", committed.and_then(|c| c.redo.as_deref())),
+        ] {
+            let name = label.map_or_else(|| verb.to_owned(), |label| format!("{verb} {label}"));
+            for id in [word.to_owned(), format!("menu-{word}")] {
+                let button = dom::element(&id);
+                if label.is_some() {
+                    let _ = button.remove_attribute("disabled");
+                } else {
+                    dom::attribute(&button, "disabled", "");
+                }
+                dom::attribute(&button, "aria-label", &name);
+            }
+        }
+        dom::show(&dom::element("unsaved"), self.journal.is_refused);
+        let name = committed.map_or("", |committed| committed.name.as_str());
+        let title = if name.is_empty() { "Ductile".to_owned() } else { format!("{name} · Ductile") };
+        if dom::document().title() != title {
+            dom::document().set_title(&title);
+        }
+        self.fill_field(&dom::element_as("name"));
+    }
+
+    fn show_scene(&mut self) {
+        let shown = (self.scene.structure.version, self.selection);
+        if self.panel.listed == Some(shown) {
+            return;
+        }
+        self.panel.listed = Some(shown);
+        let list = dom::element("scene-list");
+        let focused = dom::document().active_element().and_then(|e| e.get_attribute("data-subject"));
+        dom::clear(&list);
+        let structure = &self.scene.structure;
+        for surface in &structure.surfaces {
+            let selected = self.selection == Selection::Surface(surface.id);
+            list_entry(&list, "surface", surface.id.0, "", selected);
+        }
+        for curve in &structure.curves {
+            let note = if curve.closed { "closed" } else { "open" };
+            list_entry(&list, "curve", curve.id.0, note, self.selection == Selection::Curve(curve.id));
+        }
+        for point in &structure.points {
+            let note = match point.role {
+                PointRole::Free => "free",
+                PointRole::Curve => "on a curve",
+                PointRole::Surface => "on a surface",
+            };
+            list_entry(&list, "point", point.id.0, note, self.selection == Selection::Point(point.id));
+        }
+        let is_empty =
+            structure.points.is_empty() && structure.curves.is_empty() && structure.surfaces.is_empty();
+        dom::show(&dom::element("scene-empty"), is_empty && self.committed.is_some());
+        if let Some(subject) = focused {
+            let entry = list.query_selector(&format!("[data-subject=\"{subject}\"]")).ok().flatten();
+            if let Some(entry) = entry.and_then(|entry| entry.dyn_into::<HtmlElement>().ok()) {
+                let _ = entry.focus();
+            }
+        }
+    }
+
+    fn show_properties(&self) {
+        let structure = &self.scene.structure;
+        let title = match self.selection {
+            Selection::None => "Document".to_owned(),
+            Selection::Point(id) => format!("Point {}", id.0),
+            Selection::Curve(id) => format!("Curve {}", id.0),
+            Selection::Surface(id) => format!("Surface {}", id.0),
+        };
+        dom::text(&dom::element("properties-title"), &title);
+        dom::show(&dom::element("point-properties"), matches!(self.selection, Selection::Point(_)));
+        dom::show(&dom::element("document-properties"), self.selection == Selection::None);
+        let role = match self.selection {
+            Selection::Point(id) => entry(structure, id).map(|entry| entry.role),
+            _ => None,
+        };
+        let hangs = role.is_some_and(|role| role != PointRole::Free);
+        dom::show(&dom::element("release"), hangs);
+        dom::show(&dom::element("delete"), self.selection != Selection::None && !hangs);
+        let facts = dom::element("facts");
+        dom::clear(&facts);
+        for (name, value) in self.facts(role) {
+            dom::append(&facts, [&dom::create_with("dt", "", name), &dom::create_with("dd", "", &value)]);
+        }
+        self.show_fields();
+    }
+
+    fn facts(&self, role: Option<PointRole>) -> Vec<(&'static str, String)> {
+        let structure = &self.scene.structure;
+        match self.selection {
+            Selection::Point(_) => {
+                let role = match role {
+                    Some(PointRole::Curve) => "control of a curve",
+                    Some(PointRole::Surface) => "control of a surface",
+                    Some(PointRole::Free) | None => "free",
+                };
+                vec![("Role", role.to_owned())]
+            }
+            Selection::Curve(id) => {
+                let Some(span) = span(structure, id) else { return Vec::new() };
+                let role = match span.role {
+                    CurveRole::Free => "free",
+                    CurveRole::Boundary => "boundary of a surface",
+                    CurveRole::Inner => "inside a surface",
+                };
+                let through = self.document.curves.get(&id).map_or(0, |curve| curve.through.len());
+                let course = if span.closed { "closed" } else { "open" };
+                vec![
+                    ("Role", role.to_owned()),
+                    ("Course", course.to_owned()),
+                    ("Points", through.to_string()),
+                ]
+            }
+            Selection::Surface(id) => {
+                let surface = structure.surfaces.iter().find(|surface| surface.id == id);
+                surface.map(|surface| topology(&surface.summary)).unwrap_or_default()
+            }
+            Selection::None => match structure.surfaces.as_slice() {
+                [only] => topology(&only.summary),
+                _ => Vec::new(),
+            },
+        }
+    }
+
+    fn show_fields(&self) {
+        for id in COORDINATES.into_iter().chain(["spacing"]) {
+            self.fill_field(&dom::element_as(id));
+        }
+    }
+
+    /// Writes the present value into a field, unless the designer is typing in it.
+    fn fill_field(&self, field: &HtmlInputElement) {
+        let focused = dom::document().active_element();
+        if focused.as_ref() == Some(field.unchecked_ref::<Element>()) && !field.value().is_empty() {
+            return;
+        }
+        let id = field.id();
+        let value = match (id.as_str(), self.selection) {
+            ("name", _) => self.document.name.clone(),
+            ("spacing", _) => self.document.spacing.map(number::show).unwrap_or_default(),
+            (_, Selection::Point(point)) => {
+                let live = self.scene.header.held == Some(point);
+                let place = if live {
+                    self.scene.point(point).map(|at| at.as_dvec3())
+                } else {
+                    self.exact_place(point)
+                };
+                let index = COORDINATES.iter().position(|name| *name == id).unwrap_or(0);
+                place.map(|place| number::show(place[index])).unwrap_or_default()
+            }
+            _ => String::new(),
+        };
+        if field.value() != value {
+            field.set_value(&value);
+        }
+    }
+
+    fn typed_coordinate(&mut self, index: usize, text: &str) -> Option<String> {
+        let Selection::Point(point) = self.selection else { return None };
+        let place = self.exact_place(point)?;
+        match number::parse(text) {
+            Ok(value) if number::show(value) == number::show(place[index]) => None,
+            Ok(value) => {
+                let mut to = place;
+                to[index] = value;
+                self.request(Request::Edit(Edit::Move { point, to }));
+                None
+            }
+            Err(error) => Some(error.to_string()),
+        }
+    }
+
+    fn typed_spacing(&mut self, text: &str) -> Option<String> {
+        let spacing = if text.trim().is_empty() {
+            None
+        } else {
+            match number::parse(text) {
+                Ok(value) if value > 0.0 => Some(value),
+                Ok(_) => return Some("An edge length is above 0; nothing means automatic.".to_owned()),
+                Err(error) => return Some(error.to_string()),
+            }
+        };
+        if spacing.map(number::show) != self.document.spacing.map(number::show) {
+            self.request(Request::Edit(Edit::Spacing { spacing }));
+        }
+        None
+    }
+
+    fn show_field_error(&mut self, id: &str, error: Option<&str>) {
+        let line = dom::element("number-error");
+        dom::text(&line, error.unwrap_or_default());
+        dom::show(&line, error.is_some());
+        dom::attribute(&dom::element(id), "aria-invalid", if error.is_some() { "true" } else { "false" });
+        self.refresh();
+    }
+}
+
+fn list_entry(list: &Element, kind: &str, number: u32, note: &str, selected: bool) {
+    let subject = format!("{kind} {number}");
+    let mut name = subject.clone();
+    name[..1].make_ascii_uppercase();
+    let button = dom::command_button("", "", "select");
+    dom::attribute(&button, "data-subject", &subject);
+    dom::attribute(&button, "aria-pressed", if selected { "true" } else { "false" });
+    let label = dom::create_with("span", "", &name);
+    let note = dom::create_with("span", "note", note);
+    dom::append(&button, [&dom::icon(&format!("i-{kind}")), &label, &note]);
+    let item = dom::create("li");
+    dom::append(&item, [&button]);
+    dom::append(list, [&item]);
+}
+
+fn topology(summary: &SurfaceSummary) -> Vec<(&'static str, String)> {
+    let mut facts = vec![
+        ("Euler characteristic", summary.euler.to_string()),
+        (if summary.orientable { "Genus" } else { "Crosscaps" }, summary.genus.to_string()),
+        ("Boundaries", summary.boundaries.to_string()),
+        ("Orientable", if summary.orientable { "yes" } else { "no" }.to_owned()),
+    ];
+    if summary.components > 1 {
+        facts.push(("Pieces", summary.components.to_string()));
+    }
+    facts
+}

@@ -1,0 +1,210 @@
+//! What the page does with the answers of the worker, and with its death.
+
+use super::dom;
+use super::page::Page;
+use super::port::Answer;
+use crate::schedule::Answered;
+use crate::tool::{Selection, ToolKind};
+use ductile_spec::{Committed, Example, FrameHeader, Grabbed, Refusal, Request, from_text};
+use js_sys::Float32Array;
+use wasm_bindgen::JsValue;
+
+impl Page {
+    /// Starts the worker, or says why it cannot.
+    pub(crate) fn start_worker(&mut self) {
+        if let Err(why) = self.port.start() {
+            self.worker_died(&why);
+        }
+    }
+
+    /// The worker is gone: a new one opens the last committed document.
+    pub(crate) fn worker_died(&mut self, why: &str) {
+        self.port.stop();
+        let document = self.committed.as_ref().map(|committed| committed.document.clone());
+        self.reopening = document.is_some();
+        let nothing_yet = document.is_none();
+        let lost = self.schedule.worker_died(document);
+        self.hand.forget();
+        self.describing = false;
+        if nothing_yet && self.schedule.is_at_rest() {
+            self.schedule.push(Request::OpenExample(Example::RaisedDisc));
+        }
+        web_sys::console::info_1(&JsValue::from_str(&format!("the solver stopped: {why}")));
+        if self.restarts.allows(dom::now()) {
+            self.restart_count += 1;
+            let lost = match lost {
+                Some(act) => format!("Only {act} was lost"),
+                None => "Nothing was lost".to_owned(),
+            };
+            let text =
+                format!("The solver stopped and was started again. {lost}; undo begins anew from here.");
+            self.notices.banner("worker", &text, &[]);
+            self.start_worker();
+        } else {
+            let text = format!(
+                "The solver stopped again and again ({why}). Your document is kept: save it as a file, or try once more."
+            );
+            self.notices.banner("worker", &text, &[("Save file", "save"), ("Try again", "restart")]);
+        }
+        self.refresh();
+    }
+
+    /// The designer wants to try again.
+    pub(crate) fn restart_worker(&mut self) {
+        self.restarts.reset();
+        self.notices.dismiss("worker");
+        self.start_worker();
+    }
+
+    /// An answer came.
+    pub(crate) fn answered(&mut self, answer: Answer) {
+        let Answer { reply, floats, indices } = answer;
+        let Some(answered) = self.schedule.answered(&reply, dom::now()) else { return };
+        let frame = reply.frame.clone();
+        let was_settled = self.scene.header.settled;
+        if let Some(structure) = reply.structure {
+            let indices = indices.map_or_else(Vec::new, |indices| indices.to_vec());
+            match self.scene.set_structure(structure, indices) {
+                Ok(()) => self.structure_came(),
+                Err(error) => self.frame_refused(&error.to_string()),
+            }
+        }
+        if let Some(floats) = floats {
+            self.frame_came(frame, floats);
+        }
+        if let Some(grabbed) = reply.grabbed {
+            self.grabbed(grabbed);
+        }
+        if let Some(refusal) = reply.refused {
+            self.refused(&answered, &refusal);
+        }
+        if let Some(committed) = reply.committed {
+            self.committed(&answered, committed);
+        }
+        if let Some(file) = reply.exported {
+            self.export_came(&file.name, &file.text);
+        }
+        if answered == Answered::Opening && self.openings > 0 && self.scene.has_frame() {
+            self.fit_new_model();
+        }
+        if self.scene.header.settled != was_settled || answered != Answered::Step {
+            self.refresh();
+        } else {
+            self.refresh_figures();
+        }
+    }
+
+    fn structure_came(&mut self) {
+        self.selection = self.selection.still_in(&self.scene.structure);
+        self.stage.structure_is_new = true;
+        self.hand.hover_is_stale = true;
+    }
+
+    fn frame_came(&mut self, header: FrameHeader, floats: Float32Array) {
+        self.stage.floats.resize(floats.length() as usize, 0.0);
+        floats.copy_to(&mut self.stage.floats);
+        self.port.hand_back(floats);
+        match self.scene.set_frame(header, &self.stage.floats) {
+            Ok(()) => {
+                self.describing = false;
+                self.stage.frame_is_new = true;
+                self.hand.hover_is_stale = true;
+                self.tools.refresh(&self.scene);
+                if let Some((centre, radius)) = self.scene.bounds() {
+                    self.camera.set_extent(centre, radius);
+                }
+                self.redraw();
+            }
+            Err(error) => self.frame_refused(&error.to_string()),
+        }
+    }
+
+    /// A frame that contradicts itself is not believed; the model is asked for anew, once.
+    fn frame_refused(&mut self, why: &str) {
+        web_sys::console::warn_1(&JsValue::from_str(&format!("a frame was refused: {why}")));
+        if !self.describing {
+            self.describing = true;
+            self.schedule.push(Request::Describe);
+        }
+    }
+
+    fn grabbed(&mut self, grabbed: Grabbed) {
+        self.selection = Selection::Point(grabbed.point);
+        if let Some(drag) = &mut self.hand.drag {
+            drag.set_origin(grabbed.at);
+            self.follow_cursor();
+        }
+    }
+
+    fn refused(&mut self, answered: &Answered, refusal: &Refusal) {
+        if *answered == Answered::Grab {
+            self.schedule.forget_drag();
+            self.hand.forget();
+        }
+        if *answered == Answered::Opening {
+            let text = format!("{} The model on the screen is as it was.", sentence(&refusal.reason));
+            self.notices.banner("opening", &text, &[]);
+            if self.committed.is_none() {
+                // Nothing is on the screen yet: a refused link must not leave the page empty.
+                self.open_fallback();
+            }
+            return;
+        }
+        let text = format!("{}: {}", refusal.act, refusal.reason);
+        self.notices.refusal(&text);
+    }
+
+    fn committed(&mut self, answered: &Answered, committed: Committed) {
+        if let Ok(document) = from_text(&committed.document) {
+            self.document = document;
+        }
+        let act = committed.act.clone();
+        let text = committed.document.clone();
+        let has_undo = committed.undo.is_some();
+        self.committed = Some(committed);
+        self.keep(&text);
+        if *answered == Answered::Opening && self.reopening {
+            self.reopening = false;
+            return;
+        }
+        if *answered == Answered::Opening {
+            if !std::mem::take(&mut self.resetting) {
+                self.opened = Some(text);
+                self.openings += 1;
+                self.selection = Selection::None;
+                self.tools.choose(ToolKind::Shape);
+                self.notices.dismiss("opening");
+                self.fit_is_due = true;
+                return;
+            }
+            self.notices.toast("Reset", Some(("Undo", "undo")));
+            return;
+        }
+        self.leave_address();
+        let undoes = act.starts_with("Undo");
+        let button = if undoes { Some(("Redo", "redo")) } else { Some(("Undo", "undo")) };
+        self.notices.toast(&act, button.filter(|_| undoes || has_undo));
+    }
+
+    /// Brings a newly opened model into view: at once the first time, in flight later.
+    fn fit_new_model(&mut self) {
+        if !std::mem::take(&mut self.fit_is_due) {
+            return;
+        }
+        let Some((centre, radius)) = self.scene.bounds() else { return };
+        if self.openings <= 1 {
+            self.camera.fit(centre, radius);
+        } else {
+            let pose = self.camera.pose_that_fits(centre, radius);
+            self.fly_to(pose);
+        }
+    }
+}
+
+/// The text with a capital at its beginning and a stop at its end.
+fn sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().map(|c| c.to_uppercase().to_string()).unwrap_or_default();
+    let stop = if text.ends_with(['.', '!', '?']) { "" } else { "." };
+    format!("{first}{}{stop}", letters.as_str())
+}
