@@ -19,11 +19,14 @@
 
 mod build;
 mod check;
+mod dehydrate;
 mod handle;
+pub mod io;
 mod label;
 pub mod measure;
 mod orient;
 pub mod primitive;
+pub mod remesh;
 mod source;
 mod surgery;
 mod topology;
@@ -31,6 +34,7 @@ mod walk;
 
 pub use build::BuildError;
 pub use check::{Defect, validate, validate_curves};
+pub use dehydrate::{Dehydrated, dehydrate};
 pub use handle::{EdgeId, FaceId, HalfedgeId, VertexId};
 pub use label::{Labels, components, regions};
 pub use measure::{Summary, boundary_loops, quality, summary};

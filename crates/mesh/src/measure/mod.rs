@@ -6,6 +6,7 @@
 
 mod shape;
 
+pub(crate) use shape::angle_between;
 pub use shape::{
     Quality, bounding_box, corner_angle, edge_length, face_area, face_normal, mean_edge_length, quality,
     total_area,

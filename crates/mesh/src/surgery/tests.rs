@@ -26,11 +26,20 @@ fn family() -> Vec<(&'static str, Mesh)> {
     ]
 }
 
-/// What must not change: the kind, the control points, and the kind of every control curve.
-fn nature(mesh: &Mesh) -> (Summary, Vec<(u32, SourceTag)>, Vec<(u32, usize, i64)>, usize) {
+/// What must not change: the kind, the control points, the control curves (their ends and how often they
+/// close), and the number of regions.
+#[derive(Debug, PartialEq)]
+struct Nature {
+    kind: Summary,
+    points: Vec<(VertexId, SourceTag)>,
+    curves: Vec<(SourceTag, usize, i64)>,
+    regions: usize,
+}
+
+fn nature(mesh: &Mesh) -> Nature {
     let mut kind = summary(mesh);
     (kind.vertices, kind.edges, kind.faces) = (0, 0, 0);
-    let points = mesh.vertices().filter_map(|v| Some((v.0, mesh.vertex_source(v)?))).collect();
+    let points = mesh.vertices().filter_map(|v| Some((v, mesh.vertex_source(v)?))).collect();
     let mut tags: Vec<_> = mesh.edges().filter_map(|e| mesh.edge_source(e)).collect();
     tags.sort_unstable();
     tags.dedup();
@@ -42,10 +51,10 @@ fn nature(mesh: &Mesh) -> (Summary, Vec<(u32, SourceTag)>, Vec<(u32, usize, i64)
             let degrees: Vec<_> =
                 mesh.vertices().map(|v| mesh.spokes(v).filter(on).count()).filter(|&n| n > 0).collect();
             let ends = degrees.iter().filter(|&&n| n == 1).count();
-            (tag.0, ends, i64::try_from(degrees.len()).unwrap() - i64::try_from(edges).unwrap())
+            (tag, ends, i64::try_from(degrees.len()).unwrap() - i64::try_from(edges).unwrap())
         })
         .collect();
-    (kind, points, curves, crate::regions(mesh).count())
+    Nature { kind, points, curves, regions: crate::regions(mesh).count() }
 }
 
 /// One random move: which kind, and which of the candidates.

@@ -1,0 +1,94 @@
+//! The two ways to cut a quadrilateral in space, and whether changing from one to the other is safe.
+//!
+//! ```text
+//!        c                 c
+//!      ╱   ╲             ╱ │ ╲
+//!    a ───── b    or   a   │   b
+//!      ╲   ╱             ╲ │ ╱
+//!        d                 d
+//! ```
+
+use glam::DVec3;
+
+use crate::measure::angle_between;
+use crate::{EdgeId, Mesh, VertexId};
+
+/// An inner edge `ab` with its opposite vertices `c` and `d`, face `abc` wound as in the mesh.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Diagonal {
+    pub(super) ends: [VertexId; 2],
+    pub(super) opposite: [VertexId; 2],
+    /// Vertices beyond the sides bc, ca, ad, db; `None` on the boundary.
+    beyond: [Option<VertexId>; 4],
+}
+
+impl Diagonal {
+    pub(super) fn of(mesh: &Mesh, e: EdgeId) -> Option<Self> {
+        let h = mesh.halfedge_of(e);
+        let t = mesh.twin(h)?;
+        let beyond = |h| mesh.twin(h).map(|t| mesh.apex(t));
+        let (at_a, at_b) =
+            if mesh.origin(t) == mesh.target(h) { (t.next(), t.prev()) } else { (t.prev(), t.next()) };
+        Some(Self {
+            ends: [mesh.origin(h), mesh.target(h)],
+            opposite: [mesh.apex(h), mesh.apex(t)],
+            beyond: [h.next(), h.prev(), at_a, at_b].map(beyond),
+        })
+    }
+
+    fn points(&self, positions: &[DVec3]) -> [DVec3; 4] {
+        let ([a, b], [c, d]) = (self.ends, self.opposite);
+        [a, b, c, d].map(|v| positions[v.index()])
+    }
+
+    /// The smallest angle between the diagonal `ab` and the sides.
+    pub(super) fn angle_now(&self, positions: &[DVec3]) -> f64 {
+        let [a, b, c, d] = self.points(positions);
+        angle_at_diagonal(a, b, c, d)
+    }
+
+    /// The smallest angle between the other diagonal `cd` and the sides.
+    pub(super) fn angle_flipped(&self, positions: &[DVec3]) -> f64 {
+        let [a, b, c, d] = self.points(positions);
+        angle_at_diagonal(c, d, a, b)
+    }
+
+    /// The smallest angle of the two triangles that a flip would make.
+    pub(super) fn corner_flipped(&self, positions: &[DVec3]) -> f64 {
+        let [a, b, c, d] = self.points(positions);
+        let at_ends = angle_between(c - a, d - a).min(angle_between(c - b, d - b));
+        at_ends.min(angle_at_diagonal(c, d, a, b))
+    }
+
+    /// Whether the surface is flat enough here for the flip to make sense: no dihedral angle of more than
+    /// 90° across either diagonal, none made across the sides (or made worse), and both new triangles
+    /// facing the side of the old ones.
+    pub(super) fn is_flat_enough(&self, positions: &[DVec3]) -> bool {
+        let [a, b, c, d] = self.points(positions);
+        let normal = |p: DVec3, q: DVec3, r: DVec3| (q - p).cross(r - p).normalize_or_zero();
+        let (old_c, old_d) = (normal(a, b, c), normal(b, a, d));
+        let (new_a, new_b) = (normal(c, a, d), normal(d, b, c));
+        let old = old_c + old_d;
+        if old_c.dot(old_d) < 0.0 || new_a.dot(new_b) < 0.0 || new_a.dot(old) <= 0.0 || new_b.dot(old) <= 0.0
+        {
+            return false;
+        }
+        let sides = [(b, c, old_c, new_b), (c, a, old_c, new_a), (a, d, old_d, new_a), (d, b, old_d, new_b)];
+        sides.into_iter().zip(self.beyond).all(|((p, q, before, after), beyond)| {
+            beyond.is_none_or(|v| {
+                let outside = normal(q, p, positions[v.index()]);
+                let bend = outside.dot(after);
+                bend >= 0.0 || bend >= outside.dot(before)
+            })
+        })
+    }
+}
+
+/// The smallest angle between the segment `pq` and the sides of the quadrilateral `p r q s`.
+fn angle_at_diagonal(p: DVec3, q: DVec3, r: DVec3, s: DVec3) -> f64 {
+    let pq = q - p;
+    angle_between(pq, r - p)
+        .min(angle_between(pq, s - p))
+        .min(angle_between(-pq, r - q))
+        .min(angle_between(-pq, s - q))
+}

@@ -1,0 +1,178 @@
+//! Keeping the triangles good while the shape changes: split what is long, collapse what is crowded, flip
+//! diagonals, mend valences.
+//!
+//! After Welch 1995, chapter 6, with thresholds measured on moving shapes. The order in a batch is split,
+//! collapse, flip, repair (and then smooth, which is the solver's, for it needs the fitted surface).
+//! Splitting starts above 1.35 of the target length and deleting below 0.72 of it: with the two limits
+//! this far apart (more than 1 : 1.8), jitter of a handle does not make edits undo each other.
+//!
+//! The mesh's kind never changes, control points and pinned vertices never move or vanish, and curve edges
+//! are left alone unless [`Limits`] allow otherwise. Only `positions` of new vertices are written. Every
+//! pass reports what it did and which vertices have a new ring, so that only those are fitted again.
+//!
+//! ```
+//! use ductile_mesh::{primitive, remesh};
+//!
+//! let (mut mesh, mut positions) = primitive::icosphere(1);
+//! let mut sizing = remesh::Sizing::Uniform(0.2);
+//! let limits = remesh::Limits { most_vertices: 1000, ..remesh::Limits::default() };
+//! let mut on_sphere = |mesh: &ductile_mesh::Mesh, at: &[glam::DVec3], e| {
+//!     let [a, b] = mesh.edge_vertices(e);
+//!     (at[a.index()] + at[b.index()]).normalize_or_zero()
+//! };
+//! while remesh::improve(&mut mesh, &mut positions, &mut sizing, &limits, &mut on_sphere).splits > 0 {}
+//! assert!(ductile_mesh::quality(&mesh, &positions).longest_edge <= 1.35 * 0.2);
+//! ```
+
+mod collapse_crowded;
+mod diagonal;
+mod flip_pass;
+mod repair_valence;
+mod sizing;
+mod split_long;
+
+pub use collapse_crowded::collapse_crowded;
+pub use flip_pass::{Seeds, flip_pass};
+pub use repair_valence::repair_valence;
+pub use sizing::Sizing;
+pub use split_long::split_long;
+
+use glam::DVec3;
+
+use crate::{EdgeId, Mesh, VertexId};
+
+/// Gives the position of the new vertex when an edge is split: its midpoint, a point of the fitted
+/// surface, or a point of the control curve.
+pub type Place<'a> = dyn FnMut(&Mesh, &[DVec3], EdgeId) -> DVec3 + 'a;
+
+/// How far a pass may go.
+#[derive(Clone, Copy)]
+pub struct Limits<'a> {
+    /// Vertices that may not vanish; control points never do anyway.
+    pub is_pinned: &'a dyn Fn(VertexId) -> bool,
+    /// Whether control-curve edges may be split and their vertices collapsed. In a model the curve owns
+    /// its density, so the default is no.
+    pub may_edit_curves: bool,
+    /// The same for boundary edges that carry no curve; the default is yes.
+    pub may_edit_boundary: bool,
+    /// No split once the mesh has this many vertices.
+    pub most_vertices: usize,
+    /// The share of vertices a batch may add. A small mesh may always gain [`LEAST_GROWTH`].
+    pub growth: f64,
+    /// The largest ring the solver can hold; no edit makes a larger one.
+    pub most_neighbours: usize,
+}
+
+/// The number of vertices a batch may add however small the mesh.
+pub const LEAST_GROWTH: usize = 16;
+
+impl Default for Limits<'_> {
+    /// Nothing pinned, curves closed and boundaries open to edits, 10 % growth, rings up to 24.
+    fn default() -> Self {
+        Self {
+            is_pinned: &|_| false,
+            may_edit_curves: false,
+            may_edit_boundary: true,
+            most_vertices: usize::MAX,
+            growth: 0.10,
+            most_neighbours: 24,
+        }
+    }
+}
+
+impl core::fmt::Debug for Limits<'_> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("Limits")
+            .field("may_edit_curves", &self.may_edit_curves)
+            .field("may_edit_boundary", &self.may_edit_boundary)
+            .field("most_vertices", &self.most_vertices)
+            .field("growth", &self.growth)
+            .field("most_neighbours", &self.most_neighbours)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Limits<'_> {
+    /// Whether `e` may be cut or shortened: always inside, on curves and boundaries as the flags say.
+    fn may_edit(&self, mesh: &Mesh, e: EdgeId) -> bool {
+        if mesh.is_source_edge(e) {
+            self.may_edit_curves
+        } else {
+            self.may_edit_boundary || !mesh.is_boundary_edge(e)
+        }
+    }
+
+    /// How many vertices a batch starting with `now` vertices may add.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share of a count")]
+    fn allowance(&self, now: usize) -> usize {
+        let share = self.growth.max(0.0) * f64::from(u32::try_from(now).unwrap_or(u32::MAX));
+        (share as usize).max(LEAST_GROWTH).min(self.most_vertices.saturating_sub(now))
+    }
+}
+
+/// What a pass did.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Edits {
+    /// Edges split.
+    pub splits: usize,
+    /// Vertices collapsed away.
+    pub collapses: usize,
+    /// Edges flipped.
+    pub flips: usize,
+    /// Living vertices with a new ring, in index order. (A vertex that was merely a far end of a split
+    /// edge has a new neighbour and is listed too.)
+    pub touched: Vec<VertexId>,
+    /// Whether a limit stopped the pass with work left; another batch would do more, or a larger target
+    /// length is needed.
+    pub is_cut_short: bool,
+}
+
+impl Edits {
+    /// How many edits there were.
+    #[must_use]
+    pub const fn count(&self) -> usize {
+        self.splits + self.collapses + self.flips
+    }
+
+    /// Adds another pass's edits, made later on the same mesh.
+    fn append(&mut self, later: Self, mesh: &Mesh) {
+        self.splits += later.splits;
+        self.collapses += later.collapses;
+        self.flips += later.flips;
+        self.is_cut_short |= later.is_cut_short;
+        self.touched.extend(later.touched);
+        self.settle(mesh);
+    }
+
+    /// Sorts the touched vertices and drops the dead.
+    fn settle(&mut self, mesh: &Mesh) {
+        self.touched.sort_unstable();
+        self.touched.dedup();
+        self.touched.retain(|&v| mesh.has_vertex(v));
+    }
+}
+
+/// One batch: split, collapse, flip (from [`Seeds::All`], for vertices may have moved), repair.
+pub fn improve(
+    mesh: &mut Mesh,
+    positions: &mut Vec<DVec3>,
+    sizing: &mut Sizing,
+    limits: &Limits<'_>,
+    place: &mut Place<'_>,
+) -> Edits {
+    let mut edits = split_long(mesh, positions, sizing, limits, place);
+    edits.append(collapse_crowded(mesh, positions, sizing, limits), mesh);
+    edits.append(flip_pass(mesh, positions, Seeds::All, limits), mesh);
+    edits.append(repair_valence(mesh, positions, limits), mesh);
+    edits
+}
+
+/// The midpoint of an edge: the plainest [`Place`].
+#[must_use]
+pub fn midpoint(mesh: &Mesh, positions: &[DVec3], e: EdgeId) -> DVec3 {
+    let [a, b] = mesh.edge_vertices(e);
+    positions[a.index()].midpoint(positions[b.index()])
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,87 @@
+//! Mending inner vertices with three or four neighbours, which fit no quadratic well.
+
+use glam::DVec3;
+
+use super::collapse_crowded::collapse_into_nearest;
+use super::diagonal::Diagonal;
+use super::{Edits, Limits};
+use crate::{EdgeId, Mesh, VertexId};
+
+/// A full quadratic through the centre needs five neighbours.
+const ENOUGH: usize = 5;
+
+/// 15°: flips that make a sharper corner cure one ill with another.
+const LEAST_CORNER: f64 = core::f64::consts::PI / 12.0;
+
+/// Gives every inner vertex at least five neighbours where that is possible: the link edge whose flip
+/// makes the widest corners is turned towards it, if they are wider than 15° and the edge's ends keep five
+/// neighbours (three on the boundary); failing that, the vertex is collapsed into its nearest neighbour,
+/// unless it is pinned or on a curve.
+///
+/// This ends: every collapse leaves fewer vertices, and between collapses every flip leaves fewer missing
+/// neighbours, for no flip makes a vertex that lacks some.
+pub fn repair_valence(mesh: &mut Mesh, positions: &[DVec3], limits: &Limits<'_>) -> Edits {
+    let mut edits = Edits::default();
+    let mut stack: Vec<_> = mesh.vertices().filter(|&v| is_poor(mesh, v)).collect();
+    stack.reverse();
+    let mut ring = Vec::new();
+    while let Some(v) = stack.pop() {
+        if !mesh.has_vertex(v) || !is_poor(mesh, v) {
+            continue;
+        }
+        if let Some((e, diagonal)) = best_flip(mesh, positions, v, limits) {
+            mesh.flip(e);
+            edits.flips += 1;
+            edits.touched.extend(diagonal.ends.into_iter().chain(diagonal.opposite));
+            stack.push(v);
+            continue;
+        }
+        if (limits.is_pinned)(v) || mesh.is_on_source_curve(v) {
+            continue;
+        }
+        mesh.ring(v, &mut ring);
+        let mut candidates = ring.clone();
+        collapse_into_nearest(mesh, positions, v, &mut candidates, limits, |done| {
+            if done {
+                edits.collapses += 1;
+                edits.touched.extend_from_slice(&ring);
+                stack.extend_from_slice(&ring);
+            }
+        });
+    }
+    edits.settle(mesh);
+    edits
+}
+
+fn is_poor(mesh: &Mesh, v: VertexId) -> bool {
+    !mesh.is_boundary_vertex(v) && mesh.valence(v) < ENOUGH
+}
+
+/// The edge across from `v` whose flip towards `v` makes the widest corners, if one may be flipped.
+fn best_flip(
+    mesh: &Mesh,
+    positions: &[DVec3],
+    v: VertexId,
+    limits: &Limits<'_>,
+) -> Option<(EdgeId, Diagonal)> {
+    let mut best = None;
+    let mut widest = LEAST_CORNER;
+    for wedge in mesh.wedges(v) {
+        let e = mesh.edge_of(wedge.corner.next());
+        if mesh.can_flip(e).is_err() {
+            continue;
+        }
+        let Some(diagonal) = Diagonal::of(mesh, e) else { continue };
+        let corner = diagonal.corner_flipped(positions);
+        let can_spare = |&w: &VertexId| mesh.valence(w) > if mesh.is_boundary_vertex(w) { 3 } else { ENOUGH };
+        if corner > widest
+            && diagonal.ends.iter().all(can_spare)
+            && diagonal.opposite.iter().all(|&w| mesh.valence(w) < limits.most_neighbours)
+            && diagonal.is_flat_enough(positions)
+        {
+            widest = corner;
+            best = Some((e, diagonal));
+        }
+    }
+    best
+}

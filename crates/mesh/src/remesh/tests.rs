@@ -1,0 +1,270 @@
+use core::f64::consts::PI;
+
+use proptest::prelude::*;
+
+use super::*;
+use crate::{SourceTag, measure, primitive, quality, summary, validate};
+
+/// Moves every point by up to `size` in each direction, repeatably.
+fn jitter(positions: &mut [DVec3], size: f64, mut seed: u64) {
+    let mut next = || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        f64::from(u32::try_from(seed >> 33).unwrap()) / f64::from(1_u32 << 30) - 1.0
+    };
+    for p in positions {
+        *p += size * DVec3::new(next(), next(), next());
+    }
+}
+
+/// The same, within the plane z = 0 and keeping the boundary.
+fn jitter_inside(mesh: &Mesh, positions: &mut [DVec3], size: f64, seed: u64) {
+    let before = positions.to_vec();
+    jitter(positions, size, seed);
+    for v in mesh.vertices() {
+        let p = &mut positions[v.index()];
+        *p = if mesh.is_boundary_vertex(v) { before[v.index()] } else { p.with_z(0.0) };
+    }
+}
+
+fn least_gain_possible(mesh: &Mesh, positions: &[DVec3]) -> bool {
+    mesh.edges().filter(|&e| mesh.can_flip(e).is_ok()).all(|e| {
+        let d = diagonal::Diagonal::of(mesh, e).unwrap();
+        let degrees =
+            d.ends.iter().all(|&v| mesh.valence(v) > if mesh.is_boundary_vertex(v) { 3 } else { 4 });
+        !degrees
+            || !d.is_flat_enough(positions)
+            || d.angle_flipped(positions) <= d.angle_now(positions) + 0.05
+    })
+}
+
+#[test]
+fn splitting_reaches_the_target_everywhere() {
+    let (mut mesh, mut positions) = primitive::plane(4, 4, 1.0);
+    let kind = summary(&mesh).kind();
+    let mut sizing = Sizing::Uniform(0.3);
+    let mut batches = 0;
+    loop {
+        let before = mesh.vertex_count();
+        let edits = split_long(&mut mesh, &mut positions, &mut sizing, &Limits::default(), &mut midpoint);
+        assert_eq!(validate(&mesh), Ok(()));
+        assert!(mesh.vertex_count() - before <= (before / 10).max(LEAST_GROWTH), "growth is bounded");
+        assert_eq!(edits.splits, mesh.vertex_count() - before);
+        batches += 1;
+        if !edits.is_cut_short {
+            break;
+        }
+    }
+    assert!(batches > 3);
+    assert!(quality(&mesh, &positions).longest_edge <= 1.35 * 0.3);
+    assert_eq!(summary(&mesh).kind(), kind);
+    assert!((measure::total_area(&mesh, &positions) - 16.0).abs() < 1e-9);
+}
+
+#[test]
+fn curves_and_boundaries_are_split_only_on_request() {
+    let (mut start, positions) = primitive::plane(3, 3, 1.0);
+    let v = VertexId::from_index;
+    for j in 0..3 {
+        let e = start.edge_between(v(4 + j), v(5 + j)).unwrap();
+        start.set_edge_source(e, Some(SourceTag(1)));
+    }
+    let count = |mesh: &Mesh, what: &dyn Fn(EdgeId) -> bool| mesh.edges().filter(|&e| what(e)).count();
+    for (curves, boundary) in [(false, false), (true, false), (false, true)] {
+        let (mut mesh, mut positions) = (start.clone(), positions.clone());
+        let limits =
+            Limits { may_edit_curves: curves, may_edit_boundary: boundary, growth: 9.0, ..Limits::default() };
+        split_long(&mut mesh, &mut positions, &mut Sizing::Uniform(0.5), &limits, &mut midpoint);
+        assert_eq!(validate(&mesh), Ok(()));
+        assert_eq!(count(&mesh, &|e| mesh.is_source_edge(e)) > 3, curves);
+        assert_eq!(count(&mesh, &|e| mesh.is_boundary_edge(e)) > 12, boundary);
+    }
+}
+
+#[test]
+fn the_vertex_budget_holds() {
+    let (mut mesh, mut positions) = primitive::icosphere(1);
+    let limits = Limits { most_vertices: 50, ..Limits::default() };
+    for _ in 0..5 {
+        let edits = improve(&mut mesh, &mut positions, &mut Sizing::Uniform(0.01), &limits, &mut midpoint);
+        assert!(edits.is_cut_short);
+        assert!(mesh.vertex_count() <= 50);
+    }
+    assert_eq!(mesh.vertex_count(), 50);
+}
+
+#[test]
+fn an_odd_position_or_target_does_no_harm() {
+    let (mut mesh, mut positions) = primitive::plane(2, 2, 1.0);
+    let mut nowhere = |_: &Mesh, _: &[DVec3], _: EdgeId| DVec3::NAN;
+    split_long(&mut mesh, &mut positions, &mut Sizing::Uniform(0.5), &Limits::default(), &mut nowhere);
+    assert!(positions.iter().all(|p| p.is_finite()));
+    for target in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let edits = split_long(
+            &mut mesh,
+            &mut positions,
+            &mut Sizing::Uniform(target),
+            &Limits::default(),
+            &mut nowhere,
+        );
+        assert_eq!(edits.splits, 0, "{target}");
+    }
+}
+
+#[test]
+fn crowds_are_thinned_but_pins_stay() {
+    let (mut mesh, mut positions) = primitive::icosphere(3);
+    let kind = summary(&mesh).kind();
+    let is_pinned = |v: VertexId| v.index() < 12;
+    let limits = Limits { is_pinned: &is_pinned, ..Limits::default() };
+    mesh.set_vertex_source(VertexId::from_index(40), Some(SourceTag(0)));
+    for _ in 0..10 {
+        improve(&mut mesh, &mut positions, &mut Sizing::Uniform(0.4), &limits, &mut midpoint);
+        assert_eq!(validate(&mesh), Ok(()));
+    }
+    assert_eq!(summary(&mesh).kind(), kind);
+    assert!(mesh.vertex_count() < 642 / 2, "{}", mesh.vertex_count());
+    assert!((0..12).chain([40]).all(|i| mesh.has_vertex(VertexId::from_index(i))));
+    let q = quality(&mesh, &positions);
+    assert!(q.least_angle > 0.3 && q.inner_valences[3] + q.inner_valences[4] == 0, "{q:?}");
+    for f in mesh.faces() {
+        let p = positions[mesh.face_vertices(f)[0].index()];
+        assert!(measure::face_normal(&mesh, &positions, f).dot(p) > 0.0, "nothing folds over");
+    }
+}
+
+#[test]
+fn flips_restore_delaunay_in_the_plane() {
+    let (mut mesh, mut positions) = primitive::plane(10, 10, 1.0);
+    jitter_inside(&mesh, &mut positions, 0.3, 7);
+    let before = quality(&mesh, &positions);
+    let edits = flip_pass(&mut mesh, &positions, Seeds::All, &Limits::default());
+    assert_eq!(validate(&mesh), Ok(()));
+    assert!(edits.flips > 10 && !edits.is_cut_short);
+    let after = quality(&mesh, &positions);
+    assert!(after.least_angle >= before.least_angle && after.mean_least_angle > before.mean_least_angle);
+    assert!(least_gain_possible(&mesh, &positions));
+    let again = flip_pass(&mut mesh, &positions, Seeds::All, &Limits::default());
+    assert_eq!((again.flips, again.touched.len()), (0, 0));
+}
+
+#[test]
+fn flipping_around_the_touched_vertices_is_enough() {
+    let (mut mesh, mut positions) = primitive::plane(8, 8, 1.0);
+    flip_pass(&mut mesh, &positions, Seeds::All, &Limits::default());
+    let v = VertexId::from_index(40);
+    positions[v.index()] += DVec3::new(0.7, 0.6, 0.0);
+    let mut whole = mesh.clone();
+    let near = flip_pass(&mut mesh, &positions, Seeds::Around(&[v]), &Limits::default());
+    flip_pass(&mut whole, &positions, Seeds::All, &Limits::default());
+    assert!(near.flips > 0 && near.touched.contains(&v));
+    assert!(least_gain_possible(&mesh, &positions) && least_gain_possible(&whole, &positions));
+}
+
+#[test]
+fn sharp_creases_and_curves_are_not_flipped() {
+    // A long roof: flipping its ridge would cut through the air.
+    let mut mesh = Mesh::from_triangles(4, &[[0, 1, 2], [1, 0, 3]]).unwrap();
+    let roof =
+        |z: f64| [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [2.0, 0.5, z], [2.0, -0.5, z]].map(DVec3::from_array);
+    let flat = Limits::default();
+    assert_eq!(flip_pass(&mut mesh.clone(), &roof(-2.0), Seeds::All, &flat).flips, 0, "dihedral above 90°");
+    // The ends of the ridge have three neighbours and are on the boundary: degree forbids it, flat or not.
+    assert_eq!(flip_pass(&mut mesh.clone(), &roof(0.0), Seeds::All, &flat).flips, 0);
+    let ridge = mesh.edge_between(VertexId(0), VertexId(1)).unwrap();
+    mesh.set_edge_source(ridge, Some(SourceTag(0)));
+    assert_eq!(flip_pass(&mut mesh, &roof(0.0), Seeds::All, &flat).flips, 0);
+}
+
+#[test]
+fn poor_vertices_are_mended() {
+    let (mut mesh, mut positions) = primitive::icosphere(2);
+    for f in mesh.faces().step_by(9).collect::<Vec<_>>() {
+        let corners = mesh.face_vertices(f).map(|v| positions[v.index()]);
+        let v = mesh.split_face(f);
+        positions.resize(mesh.vertex_slots(), DVec3::ZERO);
+        positions[v.index()] = corners.into_iter().sum::<DVec3>().normalize_or_zero();
+    }
+    assert!(quality(&mesh, &positions).inner_valences[3] > 10);
+    let edits = repair_valence(&mut mesh, &positions, &Limits::default());
+    assert_eq!(validate(&mesh), Ok(()));
+    let q = quality(&mesh, &positions);
+    assert_eq!(q.inner_valences[..5], [0; 5], "{edits:?}");
+    assert!(q.least_angle > 15_f64.to_radians());
+}
+
+#[test]
+fn batches_come_to_rest_on_a_moving_shape() {
+    let (mut mesh, mut positions) = primitive::icosphere(3);
+    let mut sizing = Sizing::Uniform(measure::mean_edge_length(&mesh, &positions));
+    let mut edits = 0;
+    for frame in 0..100_u64 {
+        let mut seen = positions.clone();
+        jitter(&mut seen, 0.02 * 0.14, frame);
+        let done = improve(&mut mesh, &mut seen, &mut sizing, &Limits::default(), &mut midpoint);
+        edits += done.count();
+        positions.resize(seen.len(), DVec3::ZERO);
+        done.touched.iter().for_each(|v| positions[v.index()] = seen[v.index()]);
+    }
+    assert_eq!(edits, 0, "jitter of a fiftieth of an edge must not cause edits");
+    for p in &mut positions {
+        p.z *= 2.0;
+    }
+    let stretched = improve(&mut mesh, &mut positions, &mut sizing, &Limits::default(), &mut midpoint);
+    assert!(stretched.splits > 10);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(if cfg!(target_arch = "wasm32") { 4 } else { 32 }))]
+
+    #[test]
+    fn improving_is_safe_and_repeatable(seed in any::<u64>(), target in 0.15_f64..0.8, size in 0.0_f64..0.15) {
+        let family = [
+            primitive::icosphere(2),
+            primitive::torus(14, 8, 1.0, 0.4),
+            primitive::moebius(14, 3, 1.0, 0.6),
+            primitive::klein_bottle(14, 10, 1.0, 0.4),
+            primitive::plane(6, 5, 0.4),
+        ];
+        for (mut mesh, mut positions) in family {
+            // A curve along some edges, which must come out as it went in.
+            let curve: Vec<_> = mesh.edges().step_by(17).collect();
+            for (tag, &e) in (0..).zip(&curve) {
+                mesh.set_edge_source(e, Some(SourceTag(tag)));
+            }
+            jitter(&mut positions, size, seed);
+            let before = summary(&mesh).kind();
+            let ends: Vec<_> = curve.iter().map(|&e| mesh.edge_vertices(e)).collect();
+            let mut sizing = Sizing::PerVertex(vec![target; mesh.vertex_slots()]);
+            let limits = Limits { most_vertices: 400, ..Limits::default() };
+            for _ in 0..4 {
+                let (mut twin, mut twin_positions) = (mesh.clone(), positions.clone());
+                let mut twin_sizing = sizing.clone();
+                let edits = improve(&mut mesh, &mut positions, &mut sizing, &limits, &mut midpoint);
+                let same = improve(&mut twin, &mut twin_positions, &mut twin_sizing, &limits, &mut midpoint);
+                prop_assert_eq!(&edits, &same);
+                prop_assert_eq!(&twin_positions, &positions);
+                prop_assert_eq!(validate(&mesh), Ok(()));
+                prop_assert_eq!(summary(&mesh).kind(), before);
+                prop_assert!(edits.touched.iter().all(|&v| mesh.has_vertex(v)));
+                prop_assert!(mesh.vertices().all(|v| mesh.valence(v) <= 24));
+                for (&e, ends) in curve.iter().zip(&ends) {
+                    prop_assert!(mesh.has_edge(e) && mesh.is_source_edge(e));
+                    prop_assert!(mesh.edge_vertices(e).iter().all(|v| ends.contains(v)));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn flips_in_the_plane_never_lower_the_least_angle(seed in any::<u64>()) {
+        let (mut mesh, mut positions) = primitive::plane(7, 6, 1.0);
+        jitter_inside(&mesh, &mut positions, 0.35, seed);
+        let before = quality(&mesh, &positions);
+        let edits = flip_pass(&mut mesh, &positions, Seeds::All, &Limits::default());
+        prop_assert!(!edits.is_cut_short);
+        let after = quality(&mesh, &positions);
+        prop_assert!(after.mean_least_angle >= before.mean_least_angle - 1e-12);
+        prop_assert!(after.least_angle >= before.least_angle - 1e-12);
+        prop_assert!(after.least_angle < PI / 3.0);
+    }
+}
