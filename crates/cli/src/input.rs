@@ -61,7 +61,8 @@ pub(crate) fn read(file: &Path) -> Result<String, CliError> {
     if bytes.len() > MAX_TEXT_BYTES {
         return Err(CliError::Text { file: file.to_owned(), reason: TextError::TooLong(bytes.len()) });
     }
-    String::from_utf8(bytes).map_err(|_| fail(std::io::Error::new(std::io::ErrorKind::InvalidData, "not UTF-8 text")))
+    String::from_utf8(bytes)
+        .map_err(|_| fail(std::io::Error::new(std::io::ErrorKind::InvalidData, "not UTF-8 text")))
 }
 
 /// The document in a file.

@@ -70,14 +70,20 @@ pub(crate) fn run(options: &Options) -> Result<ExitCode, CliError> {
     }
     let seconds = begin.elapsed().as_secs_f64();
     let exported = accepted(options, modeler.handle(Request::Export(ExportFormat::Obj)))?.exported;
-    input::write(&options.out, &exported.unwrap_or_else(|| unreachable!("an accepted export has a file")).text)?;
+    input::write(
+        &options.out,
+        &exported.unwrap_or_else(|| unreachable!("an accepted export has a file")).text,
+    )?;
     if options.report.is_some() {
         let report = report(&document.name, frame.settled, &frame.figures, seconds, &structure);
         let text = serde_json::to_string_pretty(&report).map_err(|e| CliError::Option(e.to_string()))?;
         input::write("-".as_ref(), &(text + "\n"))?;
     }
     if !frame.settled {
-        eprintln!("ductile: not at rest after {} steps (residual {:.2e})", frame.figures.steps, frame.figures.residual);
+        eprintln!(
+            "ductile: not at rest after {} steps (residual {:.2e})",
+            frame.figures.steps, frame.figures.residual
+        );
         return Ok(ExitCode::from(1));
     }
     Ok(ExitCode::SUCCESS)
@@ -90,7 +96,13 @@ fn accepted(options: &Options, reply: Reply) -> Result<Reply, CliError> {
     }
 }
 
-fn report<'a>(name: &'a str, at_rest: bool, figures: &Figures, seconds: f64, structure: &Structure) -> Report<'a> {
+fn report<'a>(
+    name: &'a str,
+    at_rest: bool,
+    figures: &Figures,
+    seconds: f64,
+    structure: &Structure,
+) -> Report<'a> {
     let surfaces = structure
         .surfaces
         .iter()

@@ -1,1 +1,29 @@
-//! The model and what can be done to it: commands, grabs, relaxation, undo.
+//! The model and what can be done to it: one door, [`Modeler::handle`].
+//!
+//! The document (crate `ductile-spec`) is what the designer specified; a [`shape`] is its current
+//! approximation, a mesh that relaxes towards the fairest surface. Operations change both together, so
+//! that every act is either done whole or refused with the model as it was. The same modeler runs in the
+//! worker, in the command line and in the tests; it has no clock and no randomness.
+
+mod bound;
+mod error;
+mod example;
+mod frame;
+mod grab;
+mod history;
+mod maintain;
+mod model;
+mod modeler;
+mod operation;
+mod rehydrate;
+mod relax;
+mod shadow;
+mod shape;
+mod skeleton;
+
+pub use error::ModelError;
+pub use example::example;
+pub use model::Model;
+pub use modeler::Modeler;
+pub use relax::{Relaxation, Relaxer};
+pub use shape::{CurveShape, EmbeddedCurve, Pin, SurfaceShape};

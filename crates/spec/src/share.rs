@@ -66,7 +66,7 @@ pub fn from_fragment(link: &str) -> Result<Document, LinkError> {
     let fragment = link.rsplit_once('#').map_or(link, |(_, fragment)| fragment);
     let Some(code) = fragment.split('&').find_map(|part| part.strip_prefix(FRAGMENT_KEY)) else {
         let other = fragment.split('&').filter_map(|part| part.split_once('=')).map(|(key, _)| key);
-        let newer = other.filter(|key| key.starts_with('d') && key[1..].parse::<u32>().is_ok()).next();
+        let newer = other.into_iter().find(|key| key.starts_with("d") && key[1..].parse::<u32>().is_ok());
         return Err(newer.map_or(LinkError::Missing, |key| LinkError::Newer(key.to_owned())));
     };
     let packed = URL_SAFE_NO_PAD.decode(code).map_err(|e| LinkError::Alphabet(e.to_string()))?;

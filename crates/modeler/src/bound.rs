@@ -1,0 +1,228 @@
+//! A solver bound to one shape and one revision of it: the bridge between mesh handles and compact nodes.
+
+use crate::error::ModelError;
+use crate::model::Model;
+use crate::shape::{CurveShape, SurfaceShape};
+use ductile_mesh::VertexId;
+use ductile_solver::{CurveSettings, CurveSolver, Predicted, Rings, Settings, SolverError, SurfaceSolver};
+use ductile_spec::{CurveId, SurfaceId};
+use glam::DVec3;
+use std::collections::BTreeMap;
+
+/// What the controls ask of the nodes that follow them.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Motion {
+    /// Node and displacement, as a predictor takes them.
+    by: Vec<(u32, DVec3)>,
+    /// Where each is to be: start + displacement has a rounding error, this has none.
+    to: Vec<DVec3>,
+}
+
+impl Motion {
+    fn add(&mut self, node: u32, from: DVec3, to: DVec3) {
+        if from != to {
+            self.by.push((node, to - from));
+            self.to.push(to);
+        }
+    }
+
+    /// Whether every control is met.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.by.is_empty()
+    }
+
+    /// Lets a predictor carry the nodes as far as its strain limit allows. Returns whether all the way.
+    fn carry(
+        &self,
+        positions: &mut [DVec3],
+        predict: impl FnOnce(&mut [DVec3], &[(u32, DVec3)]) -> Result<Predicted, SolverError>,
+    ) -> Result<bool, SolverError> {
+        if self.is_empty() {
+            return Ok(true);
+        }
+        let is_met = predict(positions, &self.by)?.fraction >= 1.0;
+        if is_met {
+            for ((node, _), to) in self.by.iter().zip(&self.to) {
+                positions[*node as usize] = *to;
+            }
+        }
+        Ok(is_met)
+    }
+}
+
+/// A surface solver for one revision of a surface.
+#[derive(Clone, Debug)]
+pub struct BoundSurface {
+    /// Which connectivity it was made for.
+    pub(crate) revision: u64,
+    /// The solver, over compact nodes.
+    pub(crate) solver: SurfaceSolver,
+    /// Positions by compact node; the shape's are written from these.
+    pub(crate) positions: Vec<DVec3>,
+    vertices: Vec<VertexId>,
+    compact: Vec<u32>,
+}
+
+impl BoundSurface {
+    /// Sets up the solver for a surface as it is now.
+    pub(crate) fn new(id: SurfaceId, shape: &SurfaceShape) -> Result<Self, ModelError> {
+        let fail = |reason| ModelError::Unsolvable { what: id.to_string(), reason };
+        let vertices: Vec<VertexId> = shape.mesh.vertices().collect();
+        let mut compact = vec![u32::MAX; shape.mesh.vertex_slots()];
+        for (node, v) in (0_u32..).zip(&vertices) {
+            compact[v.index()] = node;
+        }
+        let triangles: Vec<[u32; 3]> =
+            shape.mesh.faces().map(|f| shape.mesh.face_vertices(f).map(|v| compact[v.index()])).collect();
+        let rings = Rings::from_triangles(vertices.len(), &triangles).map_err(|e| fail(e.into()))?;
+        let mut fixed = vec![false; vertices.len()];
+        for v in shape.controlled() {
+            fixed[compact[v.index()] as usize] = true;
+        }
+        let mut solver = SurfaceSolver::new(rings, fixed, Settings::default()).map_err(fail)?;
+        let positions: Vec<DVec3> = vertices.iter().map(|v| shape.positions[v.index()]).collect();
+        solver.fit_all(&positions);
+        Ok(Self { revision: shape.revision, solver, positions, vertices, compact })
+    }
+
+    /// The vertex of each compact node.
+    #[must_use]
+    pub fn vertices(&self) -> &[VertexId] {
+        &self.vertices
+    }
+
+    /// The unit normal of each compact node.
+    #[must_use]
+    pub fn normals(&self) -> &[DVec3] {
+        self.solver.normals()
+    }
+
+    /// The triangles, over compact nodes.
+    #[must_use]
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        self.solver.rings().triangles()
+    }
+
+    /// The energy of the surface as it is now.
+    #[must_use]
+    pub fn energy(&self) -> f64 {
+        self.solver.energy()
+    }
+
+    /// The compact node of a vertex.
+    pub(crate) fn node(&self, v: VertexId) -> u32 {
+        self.compact[v.index()]
+    }
+
+    /// The middle of two vertices on the fitted surface, if both had a fit when the solver was bound. (A slot
+    /// that was given to a new vertex since then has no neighbour here, and the plain middle comes out.)
+    pub(crate) fn between(&self, a: VertexId, b: VertexId) -> Option<DVec3> {
+        let node = |v: VertexId| self.compact.get(v.index()).copied().filter(|node| *node != u32::MAX);
+        let (a, b) = (node(a)?, node(b)?);
+        self.solver
+            .rings()
+            .ring(a as usize)
+            .contains(&b)
+            .then(|| self.solver.place_on_edge(&self.positions, a, b))
+    }
+
+    /// Moves free vertices towards even spacing; returns whether any moved noticeably.
+    pub(crate) fn smooth(&mut self, fraction: f64) -> bool {
+        let movable: Vec<bool> = self.solver.fixed().iter().map(|fixed| !fixed).collect();
+        let report = self.solver.smooth(&mut self.positions, &movable, fraction);
+        if report.moved > 0 {
+            self.solver.fit_all(&self.positions);
+        }
+        report.moved > 0
+    }
+
+    /// Writes the positions back into the shape.
+    pub(crate) fn write(&self, shape: &mut SurfaceShape) {
+        for (v, at) in self.vertices.iter().zip(&self.positions) {
+            shape.positions[v.index()] = *at;
+        }
+    }
+
+    /// Takes over positions that were changed elsewhere.
+    pub(crate) fn read(&mut self, shape: &SurfaceShape) {
+        let mut changed = false;
+        for (v, at) in self.vertices.iter().zip(&mut self.positions) {
+            let now = shape.positions[v.index()];
+            changed |= now != *at;
+            *at = now;
+        }
+        if changed {
+            self.solver.fit_all(&self.positions);
+        }
+    }
+
+    /// Carries the controls as far as the strain limit allows. Returns whether all the way.
+    pub(crate) fn carry(&mut self, motion: &Motion) -> Result<bool, SolverError> {
+        motion.carry(&mut self.positions, |positions, by| self.solver.predict(positions, by))
+    }
+
+    /// What the controls ask for that are not yet where the document has them.
+    pub(crate) fn motion(&self, model: &Model, shape: &SurfaceShape) -> Motion {
+        let mut wanted: BTreeMap<u32, DVec3> = BTreeMap::new();
+        for embedded in &shape.embeddings {
+            let Some(curve) = model.curves.get(&embedded.curve) else { continue };
+            for (v, to) in embedded.vertices.iter().zip(&curve.nodes) {
+                wanted.insert(self.node(*v), *to);
+            }
+        }
+        for pin in &shape.pins {
+            if let Some(to) = model.document.points.get(&pin.point) {
+                wanted.insert(self.node(pin.vertex), *to);
+            }
+        }
+        let mut motion = Motion::default();
+        for (node, to) in wanted {
+            motion.add(node, self.positions[node as usize], to);
+        }
+        motion
+    }
+}
+
+/// A curve solver for one revision of a curve.
+#[derive(Clone, Debug)]
+pub(crate) struct BoundCurve {
+    /// Which sampling it was made for.
+    pub(crate) revision: u64,
+    /// The solver.
+    pub(crate) solver: CurveSolver,
+}
+
+impl BoundCurve {
+    /// Sets up the solver for a curve as it is now.
+    pub(crate) fn new(id: CurveId, shape: &CurveShape) -> Result<Self, ModelError> {
+        let mut fixed = vec![false; shape.nodes.len()];
+        for (sample, _) in &shape.controls {
+            fixed[*sample as usize] = true;
+        }
+        let solver = CurveSolver::new(shape.nodes.len(), shape.closed, fixed, CurveSettings::default())
+            .map_err(|reason| ModelError::Unsolvable { what: id.to_string(), reason })?;
+        Ok(Self { revision: shape.revision, solver })
+    }
+
+    /// Carries the controls and steps once. Returns whether the controls are met and whether the curve rests.
+    pub(crate) fn relax(
+        &mut self,
+        nodes: &mut [DVec3],
+        motion: &Motion,
+    ) -> Result<(bool, bool), SolverError> {
+        let is_met = motion.carry(nodes, |nodes, by| self.solver.predict(nodes, by))?;
+        let report = self.solver.step(nodes)?;
+        Ok((is_met, report.at_rest))
+    }
+
+    /// What the control points ask for that are not yet where the document has them.
+    pub(crate) fn motion(model: &Model, shape: &CurveShape) -> Motion {
+        let mut motion = Motion::default();
+        for (sample, point) in &shape.controls {
+            if let Some(to) = model.document.points.get(point) {
+                motion.add(*sample, shape.nodes[*sample as usize], *to);
+            }
+        }
+        motion
+    }
+}

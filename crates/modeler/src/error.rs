@@ -1,0 +1,117 @@
+//! Why the modeler refuses: typed, with the offending thing in the message, in words for the designer.
+
+use ductile_mesh::BuildError;
+use ductile_solver::SolverError;
+use ductile_spec::{CurveId, Defect, LinkError, PointId, SurfaceId, TextError};
+use thiserror::Error;
+
+/// Why a request was refused. The model is as it was before.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum ModelError {
+    /// The text is no document.
+    #[error(transparent)]
+    Text(#[from] TextError),
+    /// The link is no document.
+    #[error(transparent)]
+    Link(#[from] LinkError),
+    /// The act would make a document that cannot be built.
+    #[error(transparent)]
+    Defect(#[from] Defect),
+    /// The triangles of a skeleton do not form a surface.
+    #[error("{surface} is not a surface: {reason}")]
+    NotASurface {
+        /// Which surface.
+        surface: SurfaceId,
+        /// What is wrong with its triangles.
+        reason: BuildError,
+    },
+    /// Two places of a surface or curve coincide, so that there is nothing to make fair between them.
+    #[error("{0} has no extent: some of its controls coincide")]
+    NoExtent(String),
+    /// The numbers of a shape cannot be solved.
+    #[error("{what} cannot be solved: {reason}")]
+    Unsolvable {
+        /// Which curve or surface.
+        what: String,
+        /// What the solver says.
+        reason: SolverError,
+    },
+    /// There is no such point.
+    #[error("{0} does not exist")]
+    NoPoint(PointId),
+    /// There is no such curve.
+    #[error("{0} does not exist")]
+    NoCurve(CurveId),
+    /// There is no such surface.
+    #[error("{0} does not exist")]
+    NoSurface(SurfaceId),
+    /// A coordinate of the request is not a usable number.
+    #[error("a position must consist of numbers between -1e6 and 1e6")]
+    BadPosition,
+    /// A curve must close to be skinned.
+    #[error("{0} is open: only a closed curve can be skinned")]
+    OpenCurve(CurveId),
+    /// The curve has a sheet already.
+    #[error("{curve} already bounds {surface}")]
+    AlreadySkinned {
+        /// The curve.
+        curve: CurveId,
+        /// What it bounds.
+        surface: SurfaceId,
+    },
+    /// A sweep needs two different curves.
+    #[error("a sweep needs two different closed curves")]
+    SweepToItself,
+    /// Two curves share a control point, so that a skin between them would be pinched there.
+    #[error("{0} and {1} share {2}: a skin between them would be pinched there")]
+    CurvesTouch(CurveId, CurveId, PointId),
+    /// A curve cannot lose the point.
+    #[error("{curve} needs {point}: {why}")]
+    NeededByCurve {
+        /// The curve.
+        curve: CurveId,
+        /// The point.
+        point: PointId,
+        /// Why it is needed.
+        why: &'static str,
+    },
+    /// Nothing hangs on the point that could be let go.
+    #[error("nothing hangs on {0}: there is nothing to release. Delete removes it")]
+    NothingToRelease(PointId),
+    /// A surface is bounded by the curve.
+    #[error("{curve} bounds {surface}: delete the surface first")]
+    BoundsSurface {
+        /// The curve.
+        curve: CurveId,
+        /// The surface.
+        surface: SurfaceId,
+    },
+    /// The place is taken by a control.
+    #[error("there is a control at this place already")]
+    Occupied,
+    /// The resolution asked for needs more nodes than fit.
+    #[error("a spacing of {spacing} would need about {nodes} nodes; the limit is {limit}")]
+    TooFine {
+        /// The spacing asked for.
+        spacing: f64,
+        /// How many nodes it would need.
+        nodes: usize,
+        /// How many fit.
+        limit: usize,
+    },
+    /// Nothing is held.
+    #[error("nothing is held")]
+    NothingHeld,
+    /// There is nothing to undo.
+    #[error("there is nothing to undo")]
+    NothingToUndo,
+    /// There is nothing to redo.
+    #[error("there is nothing to redo")]
+    NothingToRedo,
+    /// There is nothing to export.
+    #[error("there is no surface to export yet")]
+    NothingToExport,
+    /// Another act has to be finished first.
+    #[error("finish the drag first")]
+    Dragging,
+}

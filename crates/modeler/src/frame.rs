@@ -1,0 +1,156 @@
+//! What is drawn: the model in the layout of `ductile-spec`'s frame. This is the only place where f64
+//! becomes f32.
+
+use crate::model::Model;
+use crate::relax::Relaxer;
+use crate::shape::SurfaceShape;
+use ductile_spec::{
+    CurveId, CurveRole, CurveSpan, PointEntry, PointId, PointRole, Structure, SurfaceSpan, SurfaceSummary,
+    VERTEX_FLOATS,
+};
+use glam::DVec3;
+
+/// The newest frame, in buffers that are used again and again.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Frame {
+    /// Vertices, curve samples and points, one after the other.
+    pub(crate) floats: Vec<f32>,
+    /// Corners of the triangles.
+    pub(crate) indices: Vec<u32>,
+    /// What the numbers belong to.
+    pub(crate) structure: Structure,
+    key: Vec<(u32, u64)>,
+}
+
+impl Frame {
+    /// Writes the model as it is now. Returns whether the structure changed.
+    pub(crate) fn write(&mut self, model: &Model, relaxer: &Relaxer) -> bool {
+        let key = key(model);
+        let changed = key != self.key || self.structure.version == 0;
+        if changed {
+            self.key = key;
+            self.restructure(model, relaxer);
+        }
+        self.floats.clear();
+        for (id, shape) in &model.surfaces {
+            let Some(bound) = relaxer.surface(*id, shape) else { continue };
+            for (vertex, normal) in bound.vertices().iter().zip(bound.normals()) {
+                push(&mut self.floats, shape.positions[vertex.index()]);
+                push(&mut self.floats, *normal);
+            }
+        }
+        for node in model.curves.values().flat_map(|shape| &shape.nodes) {
+            push(&mut self.floats, *node);
+        }
+        for at in model.document.points.values() {
+            push(&mut self.floats, *at);
+        }
+        changed
+    }
+
+    fn restructure(&mut self, model: &Model, relaxer: &Relaxer) {
+        let version = self.structure.version.wrapping_add(1).max(1);
+        let mut structure = Structure { version, ..Structure::default() };
+        self.indices.clear();
+        let mut first_vertex = 0;
+        for (id, shape) in &model.surfaces {
+            let Some(bound) = relaxer.surface(*id, shape) else { continue };
+            let first_index = count(self.indices.len());
+            self.indices.extend(bound.triangles().iter().flatten().map(|v| v + first_vertex));
+            let vertex_count = count(bound.vertices().len());
+            let index_count = count(self.indices.len()) - first_index;
+            let summary = summarise(shape);
+            structure.surfaces.push(SurfaceSpan {
+                id: *id,
+                first_vertex,
+                vertex_count,
+                first_index,
+                index_count,
+                summary,
+            });
+            first_vertex += vertex_count;
+        }
+        let mut first = 0;
+        for (id, shape) in &model.curves {
+            let samples = count(shape.nodes.len());
+            structure.curves.push(CurveSpan {
+                id: *id,
+                first,
+                count: samples,
+                closed: shape.closed,
+                role: curve_role(model, *id),
+            });
+            first += samples;
+        }
+        structure.points = model
+            .document
+            .points
+            .keys()
+            .map(|id| PointEntry { id: *id, role: point_role(model, *id) })
+            .collect();
+        self.structure = structure;
+    }
+}
+
+/// Names a structure: what it is made of, in which connectivity and with which roles.
+fn key(model: &Model) -> Vec<(u32, u64)> {
+    let surfaces = model.surfaces.iter().map(|(id, shape)| (id.0, shape.revision));
+    let curves = model.curves.iter().map(|(id, shape)| (id.0, shape.revision));
+    let points = model.document.points.keys().map(|id| (id.0, 0));
+    let uses = model
+        .document
+        .surfaces
+        .iter()
+        .flat_map(|(id, s)| s.skeleton.curves.iter().map(|e| (id.0, u64::from(e.curve.0))));
+    let mark = [(u32::MAX, u64::MAX)];
+    surfaces.chain(mark).chain(curves).chain(mark).chain(points).chain(mark).chain(uses).collect()
+}
+
+fn summarise(shape: &SurfaceShape) -> SurfaceSummary {
+    let summary = ductile_mesh::summary(&shape.mesh);
+    SurfaceSummary {
+        euler: i32::try_from(summary.euler).unwrap_or(i32::MIN),
+        boundaries: count(summary.boundaries),
+        components: count(summary.components),
+        orientable: summary.is_orientable,
+        genus: u32::try_from(summary.genus).unwrap_or(0),
+    }
+}
+
+fn curve_role(model: &Model, id: CurveId) -> CurveRole {
+    let mut role = CurveRole::Free;
+    for shape in model.surfaces.values() {
+        for embedded in shape.embeddings.iter().filter(|e| e.curve == id) {
+            let on_boundary = embedded.vertices.iter().all(|v| shape.mesh.is_boundary_vertex(*v));
+            if on_boundary {
+                return CurveRole::Boundary;
+            }
+            role = CurveRole::Inner;
+        }
+    }
+    role
+}
+
+fn point_role(model: &Model, id: PointId) -> PointRole {
+    if model.document.curves_through(id).next().is_some() {
+        PointRole::Curve
+    } else if model.surfaces.values().any(|shape| shape.pins.iter().any(|pin| pin.point == id)) {
+        PointRole::Surface
+    } else {
+        PointRole::Free
+    }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the GPU takes f32; this is the one narrowing of the program"
+)]
+fn push(floats: &mut Vec<f32>, v: DVec3) {
+    floats.extend([v.x as f32, v.y as f32, v.z as f32]);
+}
+
+fn count(n: usize) -> u32 {
+    u32::try_from(n).unwrap_or(u32::MAX)
+}
+
+const _: () = assert!(VERTEX_FLOATS == 6, "write() pushes a position and a normal");

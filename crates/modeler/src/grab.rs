@@ -1,0 +1,74 @@
+//! A drag: from taking hold of something to letting it go. A whole drag is one act.
+//!
+//! While it lasts, the document's position of the held point follows the hand, and the shapes follow the
+//! document as they relax. A hand can ask for anything: what is not a number is ignored, what is far is
+//! cut to a reach, and in the end the position is rounded to what a document keeps.
+
+use crate::error::ModelError;
+use crate::model::Model;
+use crate::operation::{insert, kept_position, pin};
+use ductile_spec::{GrabTarget, MAX_COORDINATE, PointId};
+use glam::DVec3;
+
+/// How far one drag can reach, in radii of the model at its beginning.
+const REACH: f64 = 20.0;
+
+/// A drag in progress.
+#[derive(Clone, Debug)]
+pub(crate) struct Grab {
+    /// The control point that is held.
+    pub(crate) point: PointId,
+    /// Whether the grab made it.
+    pub(crate) is_new: bool,
+    /// Whether the hand has moved it yet.
+    pub(crate) has_moved: bool,
+    /// The model before.
+    pub(crate) before: Model,
+    centre: DVec3,
+    reach: f64,
+}
+
+impl Grab {
+    /// Takes hold; a place on a curve or surface becomes a control point.
+    pub(crate) fn begin(model: &mut Model, target: GrabTarget) -> Result<Self, ModelError> {
+        let before = model.clone();
+        let (centre, radius) = model.document.extent();
+        let point = match target {
+            GrabTarget::Point(point) => model.point(point).map(|_| point)?,
+            GrabTarget::Curve { curve, at } => insert(model, curve, at)?,
+            GrabTarget::Surface { surface, at } => pin(model, surface, at)?,
+        };
+        let is_new = !matches!(target, GrabTarget::Point(_));
+        let reach = REACH * if radius > 0.0 { radius } else { 1.0 };
+        Ok(Self { point, is_new, has_moved: false, before, centre, reach })
+    }
+
+    /// Follows the hand. Returns how far the point was moved; nothing for what is not a position.
+    pub(crate) fn follow(&mut self, model: &mut Model, to: DVec3) -> Option<f64> {
+        if !to.is_finite() {
+            return None;
+        }
+        // Divided before it is measured: the length of a huge vector would overflow.
+        let offset = (to - self.centre) / self.reach;
+        let to = if offset.abs().max_element() > 1.0 {
+            let direction = offset / offset.abs().max_element();
+            self.centre + direction.normalize_or_zero() * self.reach
+        } else {
+            to
+        };
+        let to = to.clamp(DVec3::splat(-MAX_COORDINATE), DVec3::splat(MAX_COORDINATE));
+        let at = model.document_mut().points.get_mut(&self.point)?;
+        let moved = (to - *at).length();
+        *at = to;
+        self.has_moved |= moved > 0.0;
+        Some(moved)
+    }
+
+    /// Lets go: the position becomes one that a document keeps. Returns the name of the act.
+    pub(crate) fn finish(&self, model: &mut Model) -> Result<&'static str, ModelError> {
+        let at = model.point(self.point)?;
+        let kept = kept_position(&self.before, at)?;
+        model.document_mut().points.insert(self.point, kept);
+        Ok(if self.is_new { "Control point" } else { "Move" })
+    }
+}

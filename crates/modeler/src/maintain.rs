@@ -1,0 +1,135 @@
+//! Mesh improvement (thesis chapter 6, recipe section 7): curves keep an even sampling at the wanted
+//! density, surfaces keep well-shaped triangles. Curve edges of a surface are left to their curve.
+
+use crate::bound::BoundSurface;
+use crate::model::{Model, NODE_BUDGET};
+use crate::shadow;
+use crate::shape::{CurveShape, SurfaceShape, edit};
+
+use ductile_mesh::remesh::{self, Limits, Sizing};
+use ductile_mesh::{EdgeId, Mesh, VertexId};
+use ductile_solver::respace;
+use ductile_spec::{CurveId, SurfaceId};
+use glam::DVec3;
+use std::sync::Arc;
+
+/// A stretch of a curve gets another sample when its edges are longer than this part of the spacing, and
+/// loses one when they are shorter than the second. Their quotient keeps the two from alternating.
+const LONG: f64 = 1.35;
+const SHORT: f64 = 0.72;
+/// Fewest edges between two control points of a curve.
+pub(crate) const FEWEST_EDGES: usize = 2;
+/// Part of the way to its ideal place that a vertex is smoothed in one round (recipe: 0.5 to 0.7).
+const SMOOTHING: f64 = 0.6;
+/// Rounds that refining a skeleton may take; each can double the number of vertices.
+const REFINEMENTS: usize = 40;
+/// Samples are spread again when their spacing differs by more than this part.
+const UNEVEN: f64 = 0.05;
+
+/// Improves the sampling of a curve and of all surfaces that follow it. Returns whether anything changed.
+pub(crate) fn curve(model: &mut Model, id: CurveId) -> bool {
+    let spacing = model.spacing();
+    let mut changed = false;
+    // From the last stretch to the first, so that indices of those still to come stay right.
+    let stretches = model.curves.get(&id).map(|shape| shape.stretches()).unwrap_or_default();
+    for rank in (0..stretches.len()).rev() {
+        changed |= resample_stretch(model, id, rank, spacing);
+    }
+    if let Some(shape) = model.curves.get_mut(&id)
+        && is_uneven(shape)
+    {
+        spread(edit(shape));
+        changed = true;
+    }
+    changed
+}
+
+/// Adds or takes at most one sample in a stretch.
+fn resample_stretch(model: &mut Model, id: CurveId, rank: usize, spacing: f64) -> bool {
+    let Some(shape) = model.curves.get(&id) else { return false };
+    let Some((first, count)) = shape.stretches().get(rank).copied() else { return false };
+    let nodes = shape.nodes.len();
+    let at = |k: usize| shape.nodes[(first + k) % nodes];
+    let lengths: Vec<f64> = (0..count).map(|k| (at(k + 1) - at(k)).length()).collect();
+    let total: f64 = lengths.iter().sum();
+    let mean = total / count.max(1) as f64;
+    if mean > LONG * spacing && nodes < NODE_BUDGET / 4 {
+        let longest = (0..count).fold(0, |best, k| if lengths[k] > lengths[best] { k } else { best });
+        let place = at(longest).midpoint(at(longest + 1));
+        return shadow::insert_sample(model, id, (first + longest) % nodes, place).is_ok();
+    }
+    if mean < SHORT * spacing && count > FEWEST_EDGES {
+        let shortest = (1..count).fold(1, |best, k| {
+            let around = |k: usize| lengths[k - 1] + lengths[k];
+            if around(k) < around(best) { k } else { best }
+        });
+        return shadow::remove_sample(model, id, (first + shortest) % nodes);
+    }
+    false
+}
+
+fn is_uneven(shape: &CurveShape) -> bool {
+    let nodes = shape.nodes.len();
+    shape.stretches().iter().any(|(first, count)| {
+        let lengths = (0..*count)
+            .map(|k| (shape.nodes[(first + k + 1) % nodes] - shape.nodes[(first + k) % nodes]).length());
+        let (low, high) = lengths.fold((f64::INFINITY, 0.0_f64), |(low, high), l| (low.min(l), high.max(l)));
+        high > low * (1.0 + UNEVEN)
+    })
+}
+
+/// Spreads the samples of each stretch evenly.
+pub(crate) fn spread(shape: &mut CurveShape) {
+    let mut is_control = vec![false; shape.nodes.len()];
+    for (sample, _) in &shape.controls {
+        is_control[*sample as usize] = true;
+    }
+    // Refused only for positions that are no numbers; then the samples stay where they are.
+    let _ = respace(&mut shape.nodes, shape.closed, &is_control);
+}
+
+/// Improves the mesh of a surface; returns whether its connectivity changed.
+pub(crate) fn surface(model: &mut Model, id: SurfaceId, bound: &BoundSurface) -> bool {
+    let Some(shared) = model.surfaces.get(&id) else { return false };
+    let mut shape = (**shared).clone();
+    let mut place = |mesh: &Mesh, positions: &[DVec3], e: EdgeId| {
+        let [a, b] = mesh.edge_vertices(e);
+        bound.between(a, b).unwrap_or_else(|| remesh::midpoint(mesh, positions, e))
+    };
+    let mut sizing = Sizing::Uniform(shape.spacing);
+    let limits = Limits { most_vertices: NODE_BUDGET, ..Limits::default() };
+    let edits = remesh::improve(&mut shape.mesh, &mut shape.positions, &mut sizing, &limits, &mut place);
+    if edits.count() == 0 {
+        return false;
+    }
+    shape.revision = model.next_revision();
+    model.surfaces.insert(id, Arc::new(shape));
+    true
+}
+
+/// Moves vertices towards even spacing within the surface; returns whether any moved noticeably.
+pub(crate) fn smooth(shape: &mut Arc<SurfaceShape>, bound: &mut BoundSurface) -> bool {
+    let moved = bound.smooth(SMOOTHING);
+    if moved {
+        bound.write(edit(shape));
+    }
+    moved
+}
+
+/// Refines a skeleton to the spacing.
+pub(crate) fn refine(shape: &mut SurfaceShape) {
+    let mut sizing = Sizing::Uniform(shape.spacing);
+    let limits = Limits { most_vertices: NODE_BUDGET, growth: 1.0, ..Limits::default() };
+    for _ in 0..REFINEMENTS {
+        let edits = remesh::improve(
+            &mut shape.mesh,
+            &mut shape.positions,
+            &mut sizing,
+            &limits,
+            &mut remesh::midpoint,
+        );
+        if edits.count() == 0 {
+            break;
+        }
+    }
+}

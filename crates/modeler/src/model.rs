@@ -1,0 +1,133 @@
+//! The model: the document and the shapes that approximate it. Cloning shares what is unchanged.
+
+use crate::error::ModelError;
+use crate::rehydrate::{build_curve, build_surface};
+use crate::shape::{CurveShape, SurfaceShape, edit};
+use ductile_spec::{CurveId, Document, PointId, SurfaceId};
+use glam::DVec3;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Most nodes that all surfaces may have together; above it the spacing grows.
+pub(crate) const NODE_BUDGET: usize = 20_000;
+/// Spacing of a new document, as a part of the model's radius: about 700 nodes on a disc.
+const DEFAULT_SPACING: f64 = 0.07;
+
+/// A document with its shapes.
+#[derive(Clone, Debug, Default)]
+pub struct Model {
+    /// What was specified.
+    pub document: Arc<Document>,
+    /// The curves as they are now.
+    pub curves: BTreeMap<CurveId, Arc<CurveShape>>,
+    /// The surfaces as they are now.
+    pub surfaces: BTreeMap<SurfaceId, Arc<SurfaceShape>>,
+    revisions: u64,
+}
+
+impl Model {
+    /// Builds the shapes of a document, ready to be relaxed.
+    ///
+    /// # Errors
+    /// [`ModelError`] when the document cannot be built.
+    pub fn from_document(document: Document) -> Result<Self, ModelError> {
+        document.validate()?;
+        let mut model = Self { document: Arc::new(document), ..Self::default() };
+        for id in model.document.curves.keys().copied().collect::<Vec<_>>() {
+            model.build_curve(id)?;
+        }
+        for id in model.document.surfaces.keys().copied().collect::<Vec<_>>() {
+            model.build_surface(id)?;
+        }
+        Ok(model)
+    }
+
+    /// Makes the document different; the shapes follow by their own calls.
+    pub(crate) fn document_mut(&mut self) -> &mut Document {
+        Arc::make_mut(&mut self.document)
+    }
+
+    /// A number that no shape has had yet.
+    pub(crate) fn next_revision(&mut self) -> u64 {
+        self.revisions += 1;
+        self.revisions
+    }
+
+    /// Gives every shape a revision that none has had.
+    pub(crate) fn renew_revisions(&mut self) {
+        for shape in self.curves.values_mut() {
+            self.revisions += 1;
+            edit(shape).revision = self.revisions;
+        }
+        for shape in self.surfaces.values_mut() {
+            self.revisions += 1;
+            edit(shape).revision = self.revisions;
+        }
+    }
+
+    /// Keeps revisions unique after the model was replaced by an older or a new one.
+    pub(crate) fn continue_revisions(&mut self, other: &Self) {
+        self.revisions = self.revisions.max(other.revisions);
+    }
+
+    /// Builds the shape of a curve of the document.
+    pub(crate) fn build_curve(&mut self, id: CurveId) -> Result<(), ModelError> {
+        let spacing = self.spacing();
+        let revision = self.next_revision();
+        let shape = build_curve(&self.document, id, spacing, revision)?;
+        self.curves.insert(id, Arc::new(shape));
+        Ok(())
+    }
+
+    /// Builds the shape of a surface of the document, from its curves as they are now.
+    pub(crate) fn build_surface(&mut self, id: SurfaceId) -> Result<(), ModelError> {
+        let surface = self.document.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?;
+        let spacing = surface.spacing.unwrap_or_else(|| self.spacing());
+        let revision = self.next_revision();
+        let shape = build_surface(&self.document, &self.curves, id, spacing, revision)?;
+        self.surfaces.insert(id, Arc::new(shape));
+        Ok(())
+    }
+
+    /// Target edge length of the document: what it states, or a part of its size.
+    #[must_use]
+    pub fn spacing(&self) -> f64 {
+        self.document.spacing.unwrap_or_else(|| default_spacing(&self.document))
+    }
+
+    /// Where a control point is specified to be.
+    pub(crate) fn point(&self, id: PointId) -> Result<DVec3, ModelError> {
+        self.document.points.get(&id).copied().ok_or(ModelError::NoPoint(id))
+    }
+
+    /// Rough size of the shapes in memory.
+    pub(crate) fn shape_bytes(&self) -> usize {
+        let surfaces: usize = self.surfaces.values().map(|s| s.bytes()).sum();
+        let curves: usize = self.curves.values().map(|c| 24 * c.nodes.len()).sum();
+        surfaces + curves
+    }
+
+    /// Mesh nodes of all surfaces and free curves.
+    #[must_use]
+    pub fn node_count(&self) -> usize {
+        let surfaces: usize = self.surfaces.values().map(|s| s.mesh.vertex_count()).sum();
+        let curves: usize = self.curves.values().map(|c| c.nodes.len()).sum();
+        surfaces + curves
+    }
+}
+
+/// A spacing with two significant digits, so that a document that states it stays short.
+pub(crate) fn default_spacing(document: &Document) -> f64 {
+    let (_, radius) = document.extent();
+    let wanted = if radius > 0.0 { DEFAULT_SPACING * radius } else { DEFAULT_SPACING };
+    round_to_digits(wanted, 2)
+}
+
+/// Rounds to a number of significant decimal digits.
+pub(crate) fn round_to_digits(value: f64, digits: usize) -> f64 {
+    if value == 0.0 || !value.is_finite() {
+        return value;
+    }
+    // Through the decimal text: exact on every machine, which powers and logarithms are not.
+    format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value)
+}

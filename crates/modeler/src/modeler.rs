@@ -1,0 +1,307 @@
+//! The one door: requests go in, replies come out, the model stays whole.
+
+use crate::error::ModelError;
+use crate::example::example;
+use crate::frame::Frame;
+use crate::grab::Grab;
+use crate::history::{History, State};
+use crate::model::Model;
+use crate::operation;
+use crate::relax::Relaxer;
+use ductile_mesh::Mesh;
+use ductile_mesh::io::obj;
+use ductile_spec::{
+    Committed, Document, Edit, ExportFormat, Exported, FrameHeader, GrabTarget, Grabbed, Refusal, Reply,
+    Request, Step, SurfaceId, from_fragment, from_text, to_compact_text,
+};
+use glam::DVec3;
+
+/// The modeler behind the page, the command line and the tests.
+///
+/// ```
+/// use ductile_modeler::Modeler;
+/// use ductile_spec::{Example, Request, Step};
+///
+/// let mut modeler = Modeler::new();
+/// modeler.handle(Request::OpenExample(Example::Disc));
+/// while !modeler.handle(Request::Step(Step { drag: None, iterations: 20 })).frame.settled {}
+/// assert!(modeler.model().surfaces.len() == 1);
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Modeler {
+    model: Model,
+    history: History,
+    relaxer: Relaxer,
+    grab: Option<Grab>,
+    frame: Frame,
+    describe: bool,
+}
+
+/// What a request leads to beside a new frame.
+#[derive(Default)]
+struct Outcome {
+    committed: Option<String>,
+    grabbed: Option<Grabbed>,
+    exported: Option<Exported>,
+}
+
+impl Modeler {
+    /// A modeler with an empty document.
+    #[must_use]
+    pub fn new() -> Self {
+        Self { describe: true, ..Self::default() }
+    }
+
+    /// The model as it is now.
+    #[must_use]
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// The numbers of the newest frame, laid out as `ductile_spec::Structure` says.
+    #[must_use]
+    pub fn floats(&self) -> &[f32] {
+        &self.frame.floats
+    }
+
+    /// The triangles of the newest frame.
+    #[must_use]
+    pub fn indices(&self) -> &[u32] {
+        &self.frame.indices
+    }
+
+    /// The relaxation: energies and solver figures.
+    #[must_use]
+    pub fn relaxer(&self) -> &Relaxer {
+        &self.relaxer
+    }
+
+    /// Does what is asked, or refuses and leaves the model as it was; either way answers with the newest frame.
+    pub fn handle(&mut self, request: Request) -> Reply {
+        let act = label(&request);
+        let mut reply = Reply::default();
+        match self.serve(request) {
+            Ok(outcome) => {
+                reply.committed = outcome.committed.map(|act| self.committed(act));
+                reply.grabbed = outcome.grabbed;
+                reply.exported = outcome.exported;
+            }
+            Err(error) => reply.refused = Some(Refusal { act: act.to_owned(), reason: error.to_string() }),
+        }
+        self.relaxer.bind(&self.model);
+        let changed = self.frame.write(&self.model, &self.relaxer);
+        if changed || self.describe {
+            reply.structure = Some(self.frame.structure.clone());
+            self.describe = false;
+        }
+        reply.frame = FrameHeader {
+            topology_version: self.frame.structure.version,
+            settled: self.relaxer.is_settled() && self.grab.is_none(),
+            held: self.grab.as_ref().map(|grab| grab.point),
+            figures: self.relaxer.figures(&self.model),
+        };
+        reply
+    }
+
+    fn serve(&mut self, request: Request) -> Result<Outcome, ModelError> {
+        match request {
+            Request::OpenText { text } => self.open("Open", from_text(&text)?),
+            Request::OpenLink { link } => self.open("Open link", from_fragment(&link)?),
+            Request::OpenExample(kind) => self.open(kind.title(), example(kind)),
+            Request::New => self.open("New", Document::default()),
+            Request::Edit(edit) => self.edit(&edit),
+            Request::Grab(target) => self.take_hold(target),
+            Request::Step(step) => {
+                self.step(step);
+                Ok(Outcome::default())
+            }
+            Request::Drop => self.let_go(),
+            Request::Cancel => self.put_back(),
+            Request::Undo => self.undo(),
+            Request::Redo => self.redo(),
+            Request::Export(format) => self.export(format),
+            Request::Describe => {
+                self.describe = true;
+                Ok(Outcome { committed: Some(String::new()), ..Outcome::default() })
+            }
+        }
+    }
+
+    /// Replaces the model; the one before can be had back by undo.
+    fn open(&mut self, act: &str, document: Document) -> Result<Outcome, ModelError> {
+        let mut fresh = Model::from_document(document)?;
+        self.grab = None;
+        fresh.continue_revisions(&self.model);
+        fresh.renew_revisions();
+        let before = core::mem::replace(&mut self.model, fresh);
+        self.record(act, before);
+        self.relaxer.wake();
+        Ok(Outcome { committed: Some(act.to_owned()), ..Outcome::default() })
+    }
+
+    fn record(&mut self, act: &str, before: Model) {
+        // The empty document that every modeler begins with is nobody's work.
+        let is_first = self.history.next_undo().is_none() && *before.document == Document::default();
+        if !is_first {
+            self.history.record(act, before);
+        }
+    }
+
+    fn edit(&mut self, edit: &Edit) -> Result<Outcome, ModelError> {
+        if self.grab.is_some() {
+            return Err(ModelError::Dragging);
+        }
+        let before = self.model.clone();
+        match operation::apply(&mut self.model, edit) {
+            Ok(()) => {
+                self.history.record(edit.label(), before);
+                self.relaxer.wake();
+                Ok(Outcome { committed: Some(edit.label().to_owned()), ..Outcome::default() })
+            }
+            Err(error) => {
+                self.restore(before);
+                Err(error)
+            }
+        }
+    }
+
+    fn take_hold(&mut self, target: GrabTarget) -> Result<Outcome, ModelError> {
+        if self.grab.is_some() {
+            return Err(ModelError::Dragging);
+        }
+        let before = self.model.clone();
+        match Grab::begin(&mut self.model, target) {
+            Ok(grab) => {
+                let at = self.model.point(grab.point).unwrap_or(DVec3::ZERO);
+                let grabbed = Grabbed { point: grab.point, at };
+                self.grab = Some(grab);
+                self.relaxer.wake();
+                Ok(Outcome { grabbed: Some(grabbed), ..Outcome::default() })
+            }
+            Err(error) => {
+                self.restore(before);
+                Err(error)
+            }
+        }
+    }
+
+    fn step(&mut self, step: Step) {
+        if let (Some(grab), Some(to)) = (self.grab.as_mut(), step.drag) {
+            match grab.follow(&mut self.model, to) {
+                Some(moved) => self.relaxer.hand_moved(moved),
+                None => self.relaxer.count_rescue(),
+            }
+        }
+        self.relaxer.step(&mut self.model, step.iterations);
+    }
+
+    fn let_go(&mut self) -> Result<Outcome, ModelError> {
+        let grab = self.grab.take().ok_or(ModelError::NothingHeld)?;
+        if !grab.has_moved {
+            self.restore(grab.before);
+            return Ok(Outcome::default());
+        }
+        match grab.finish(&mut self.model) {
+            Ok(act) => {
+                self.history.record(act, grab.before);
+                self.relaxer.wake();
+                Ok(Outcome { committed: Some(act.to_owned()), ..Outcome::default() })
+            }
+            Err(error) => {
+                self.restore(grab.before);
+                Err(error)
+            }
+        }
+    }
+
+    fn put_back(&mut self) -> Result<Outcome, ModelError> {
+        let grab = self.grab.take().ok_or(ModelError::NothingHeld)?;
+        self.restore(grab.before);
+        Ok(Outcome::default())
+    }
+
+    fn undo(&mut self) -> Result<Outcome, ModelError> {
+        if self.grab.is_some() {
+            return Err(ModelError::Dragging);
+        }
+        let (act, state) = self.history.undo(&self.model).ok_or(ModelError::NothingToUndo)?;
+        self.go_to(state)?;
+        Ok(Outcome { committed: Some(format!("Undo {act}")), ..Outcome::default() })
+    }
+
+    fn redo(&mut self) -> Result<Outcome, ModelError> {
+        if self.grab.is_some() {
+            return Err(ModelError::Dragging);
+        }
+        let (act, state) = self.history.redo(&self.model).ok_or(ModelError::NothingToRedo)?;
+        self.go_to(state)?;
+        Ok(Outcome { committed: Some(format!("Redo {act}")), ..Outcome::default() })
+    }
+
+    fn go_to(&mut self, state: State) -> Result<(), ModelError> {
+        let model = match state {
+            State::Whole(model) => model,
+            State::Document(document) => {
+                let mut model = Model::from_document((*document).clone())?;
+                model.continue_revisions(&self.model);
+                model.renew_revisions();
+                model
+            }
+        };
+        self.restore(model);
+        Ok(())
+    }
+
+    fn restore(&mut self, mut model: Model) {
+        model.continue_revisions(&self.model);
+        self.model = model;
+        self.relaxer.wake();
+    }
+
+    fn export(&self, format: ExportFormat) -> Result<Outcome, ModelError> {
+        let ExportFormat::Obj = format;
+        if self.model.surfaces.is_empty() {
+            return Err(ModelError::NothingToExport);
+        }
+        let (mut positions, mut normals, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
+        for (id, shape) in &self.model.surfaces {
+            let Some(bound) = self.relaxer.surface(*id, shape) else { continue };
+            let first = u32::try_from(positions.len()).unwrap_or(u32::MAX);
+            positions.extend(bound.vertices().iter().map(|v| shape.positions[v.index()]));
+            normals.extend_from_slice(bound.normals());
+            triangles.extend(bound.triangles().iter().map(|t| t.map(|v| v + first)));
+        }
+        let mesh = Mesh::from_triangles(positions.len(), &triangles)
+            .map_err(|reason| ModelError::NotASurface { surface: SurfaceId(0), reason })?;
+        let text = format!("# A fair surface by Ductile\n{}", obj::write(&mesh, &positions, Some(&normals)));
+        let name = if self.model.document.name.is_empty() { "ductile" } else { &self.model.document.name };
+        Ok(Outcome { exported: Some(Exported { name: format!("{name}.obj"), text }), ..Outcome::default() })
+    }
+
+    fn committed(&self, act: String) -> Committed {
+        Committed {
+            act,
+            document: to_compact_text(&self.model.document),
+            name: self.model.document.name.clone(),
+            undo: self.history.next_undo().map(str::to_owned),
+            redo: self.history.next_redo().map(str::to_owned),
+        }
+    }
+}
+
+/// What a request is called when it is refused.
+fn label(request: &Request) -> &'static str {
+    match request {
+        Request::OpenText { .. } => "Open",
+        Request::OpenLink { .. } => "Open link",
+        Request::OpenExample(kind) => kind.title(),
+        Request::New => "New",
+        Request::Edit(edit) => edit.label(),
+        Request::Grab(_) | Request::Drop | Request::Cancel => "Drag",
+        Request::Step(_) => "Step",
+        Request::Undo => "Undo",
+        Request::Redo => "Redo",
+        Request::Export(_) => "Export",
+        Request::Describe => "Describe",
+    }
+}

@@ -1,0 +1,87 @@
+//! `delete`: removes a point, a curve or a surface, and the points that only it used.
+
+use crate::error::ModelError;
+use crate::model::Model;
+use crate::operation::{is_unused, refresh_skeleton, release};
+use crate::shape::edit;
+use ductile_spec::{CurveId, PointId, SkeletonVertex, SurfaceId};
+
+/// Removes a control point; what hangs on it is released first.
+pub(crate) fn point(model: &mut Model, id: PointId) -> Result<(), ModelError> {
+    model.point(id)?;
+    if is_unused(model, id) {
+        model.document_mut().points.remove(&id);
+        return Ok(());
+    }
+    release::release(model, id)
+}
+
+/// Removes a curve that bounds no surface; surfaces that it runs through are freed from it.
+pub(crate) fn curve(model: &mut Model, id: CurveId) -> Result<(), ModelError> {
+    let curve = model.document.curves.get(&id).ok_or(ModelError::NoCurve(id))?.clone();
+    let surfaces: Vec<SurfaceId> = model.document.surfaces_on(id).collect();
+    for surface in &surfaces {
+        let shape = model.surfaces.get(surface).ok_or(ModelError::NoSurface(*surface))?;
+        let bounds = |v| shape.mesh.is_boundary_vertex(v);
+        if shape.embeddings.iter().any(|e| e.curve == id && e.vertices.iter().any(|v| bounds(*v))) {
+            return Err(ModelError::BoundsSurface { curve: id, surface: *surface });
+        }
+    }
+    for surface in &surfaces {
+        let revision = model.next_revision();
+        let Some(shape) = model.surfaces.get_mut(surface).map(edit) else { continue };
+        let tagged: Vec<_> =
+            shape.mesh.edges().filter(|e| shape.mesh.edge_source(*e).is_some_and(|t| t.0 == id.0)).collect();
+        for edge in tagged {
+            shape.mesh.set_edge_source(edge, None);
+        }
+        for vertex in shape
+            .embeddings
+            .iter()
+            .filter(|e| e.curve == id)
+            .flat_map(|e| e.vertices.clone())
+            .collect::<Vec<_>>()
+        {
+            let shared = shape.mesh.vertex_source(vertex).is_some_and(|tag| {
+                model
+                    .document
+                    .curves
+                    .iter()
+                    .any(|(other, c)| *other != id && c.through.contains(&PointId(tag.0)))
+            });
+            if !shared {
+                shape.mesh.set_vertex_source(vertex, None);
+            }
+        }
+        shape.embeddings.retain(|e| e.curve != id);
+        shape.revision = revision;
+    }
+    model.document_mut().curves.remove(&id);
+    model.curves.remove(&id);
+    for surface in surfaces {
+        refresh_skeleton(model, surface);
+    }
+    drop_unused(model, curve.through);
+    model.document.validate()?;
+    Ok(())
+}
+
+/// Removes a surface; its curves stay.
+pub(crate) fn surface(model: &mut Model, id: SurfaceId) -> Result<(), ModelError> {
+    let surface = model.document_mut().surfaces.remove(&id).ok_or(ModelError::NoSurface(id))?;
+    model.surfaces.remove(&id);
+    let points = surface.skeleton.vertices.into_iter().filter_map(|v| match v {
+        SkeletonVertex::Control(point) => Some(point),
+        SkeletonVertex::Free(_) => None,
+    });
+    drop_unused(model, points);
+    Ok(())
+}
+
+fn drop_unused(model: &mut Model, points: impl IntoIterator<Item = PointId>) {
+    for point in points {
+        if is_unused(model, point) {
+            model.document_mut().points.remove(&point);
+        }
+    }
+}

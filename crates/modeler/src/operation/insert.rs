@@ -1,0 +1,65 @@
+//! `insert`: a control point on a curve (thesis section 7.3.6, `ray-intersect-curve`).
+
+use crate::error::ModelError;
+use crate::model::Model;
+use crate::operation::{kept_position, refresh_skeleton};
+use crate::shadow;
+use crate::shape::{CurveShape, edit};
+use ductile_mesh::SourceTag;
+use ductile_spec::{CurveId, PointId};
+use glam::DVec3;
+
+/// Makes a control point at the place of a curve nearest to a given one. The shape does not change by it.
+pub(crate) fn insert(model: &mut Model, id: CurveId, at: DVec3) -> Result<PointId, ModelError> {
+    let at = kept_position(model, at)?;
+    let shape = model.curves.get(&id).ok_or(ModelError::NoCurve(id))?;
+    let (edge, t) = shape.nearest(at).ok_or(ModelError::NoCurve(id))?;
+    let sample = free_sample(model, id, edge, t)?;
+    let point = model.document.next_point();
+    let revision = model.next_revision();
+    let shape = edit(model.curves.get_mut(&id).ok_or(ModelError::NoCurve(id))?);
+    let place = shape.nodes[sample];
+    let rank = rank_of(shape, sample);
+    shape.controls.push((u32::try_from(sample).unwrap_or(u32::MAX), point));
+    shape.controls.sort_unstable();
+    shape.revision = revision;
+    let place = kept_position(model, place)?;
+    let document = model.document_mut();
+    document.points.insert(point, place);
+    if let Some(curve) = document.curves.get_mut(&id) {
+        curve.through.insert(rank, point);
+    }
+    for surface in model.document.surfaces_on(id).collect::<Vec<_>>() {
+        if let Some(shape) = model.surfaces.get_mut(&surface).map(edit) {
+            for embedded in shape.embeddings.iter().filter(|e| e.curve == id) {
+                shape.mesh.set_vertex_source(embedded.vertices[sample], Some(SourceTag(point.0)));
+            }
+        }
+        refresh_skeleton(model, surface);
+    }
+    model.document.validate()?;
+    Ok(point)
+}
+
+/// Where a new control at a sample stands among the points of the curve.
+fn rank_of(shape: &CurveShape, sample: usize) -> usize {
+    shape.controls.iter().filter(|(index, _)| (*index as usize) < sample).count()
+}
+
+/// The sample nearest to a place on an edge that is no control yet; the edge is split if both ends are.
+fn free_sample(model: &mut Model, id: CurveId, edge: usize, t: f64) -> Result<usize, ModelError> {
+    let shape = model.curves.get(&id).ok_or(ModelError::NoCurve(id))?;
+    let (a, b) = shape.edge(edge);
+    let (near, far) = if t < 0.5 { (a, b) } else { (b, a) };
+    if !shape.is_control(near) {
+        return Ok(near);
+    }
+    if !(0.1..=0.9).contains(&t) {
+        return Err(ModelError::Occupied);
+    }
+    if !shape.is_control(far) {
+        return Ok(far);
+    }
+    let place = shape.nodes[a].lerp(shape.nodes[b], t);
+    shadow::insert_sample(model, id, edge, place)
+}

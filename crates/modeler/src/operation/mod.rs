@@ -1,0 +1,90 @@
+//! The acts of a designer, one file each. An act changes document and shapes together; when it fails the
+//! caller throws the changed model away and keeps the one before.
+
+mod curve;
+mod delete;
+mod insert;
+mod pin;
+mod point;
+mod release;
+mod sheet;
+mod sweep;
+
+use crate::error::ModelError;
+use crate::model::Model;
+use ductile_spec::{Edit, MAX_COORDINATE, PointId, SurfaceId};
+use glam::DVec3;
+use std::sync::Arc;
+
+pub(crate) use insert::insert;
+pub(crate) use pin::pin;
+
+/// Digits of a position that a document keeps, counted from the leading digit of the model's radius.
+/// A millionth of the model is finer than a pixel and keeps links short.
+const POSITION_DIGITS: i32 = 6;
+
+/// Does an act.
+///
+/// # Errors
+/// [`ModelError`] says why it cannot be done; the model may then be half changed and must be dropped.
+pub(crate) fn apply(model: &mut Model, edit: &Edit) -> Result<(), ModelError> {
+    match edit {
+        Edit::Point { at } => point::place(model, *at).map(drop),
+        Edit::Move { point, to } => point::shift(model, *point, *to),
+        Edit::Curve { through, closed } => curve::curve(model, through, *closed),
+        Edit::Draw { at, closed } => curve::draw(model, at, *closed),
+        Edit::Sheet { boundary } => sheet::sheet(model, *boundary),
+        Edit::Sweep { from, to } => sweep::sweep(model, *from, *to),
+        Edit::Pin { surface, at } => pin(model, *surface, *at).map(drop),
+        Edit::Insert { curve, at } => insert(model, *curve, *at).map(drop),
+        Edit::Release { point } => release::release(model, *point),
+        Edit::DeletePoint { point } => delete::point(model, *point),
+        Edit::DeleteCurve { curve } => delete::curve(model, *curve),
+        Edit::DeleteSurface { surface } => delete::surface(model, *surface),
+        Edit::Spacing { spacing } => respace(model, *spacing),
+        Edit::Rename { name } => {
+            model.document_mut().name.clone_from(name);
+            Ok(model.document.validate()?)
+        }
+    }
+}
+
+/// Builds everything anew at another density.
+fn respace(model: &mut Model, spacing: Option<f64>) -> Result<(), ModelError> {
+    let mut document = (*model.document).clone();
+    document.spacing = spacing;
+    let mut fresh = Model::from_document(document)?;
+    fresh.continue_revisions(model);
+    fresh.renew_revisions();
+    *model = fresh;
+    Ok(())
+}
+
+/// The position that a document keeps for one that was pointed at.
+pub(crate) fn kept_position(model: &Model, at: DVec3) -> Result<DVec3, ModelError> {
+    if !at.to_array().iter().all(|x| x.is_finite() && x.abs() <= MAX_COORDINATE) {
+        return Err(ModelError::BadPosition);
+    }
+    let (_, radius) = model.document.extent();
+    let radius = if radius > 0.0 { radius } else { 1.0 };
+    let exponent: i32 = format!("{radius:e}").split_once('e').and_then(|(_, e)| e.parse().ok()).unwrap_or(0);
+    let decimals = usize::try_from((POSITION_DIGITS - exponent).clamp(0, 15)).unwrap_or(0);
+    // Through the decimal text: exact on every machine. Adding zero turns -0 into 0.
+    let keep = |x: f64| format!("{x:.decimals$}").parse::<f64>().unwrap_or(x) + 0.0;
+    Ok(DVec3::from_array(at.to_array().map(keep)))
+}
+
+/// Writes the skeleton of a surface that was changed on its mesh back into the document.
+pub(crate) fn refresh_skeleton(model: &mut Model, id: SurfaceId) {
+    let Some(shape) = model.surfaces.get(&id).map(Arc::clone) else { return };
+    let skeleton = crate::skeleton::skeleton_of(model, &shape);
+    if let Some(surface) = model.document_mut().surfaces.get_mut(&id) {
+        surface.skeleton = skeleton;
+    }
+}
+
+/// Whether nothing in the document uses a point.
+pub(crate) fn is_unused(model: &Model, point: PointId) -> bool {
+    model.document.curves_through(point).next().is_none()
+        && model.document.surfaces_through(point).next().is_none()
+}

@@ -1,0 +1,60 @@
+//! `release`: lets a control point go; the shape relaxes, the topology stays.
+
+use crate::error::ModelError;
+use crate::model::Model;
+use crate::operation::{is_unused, refresh_skeleton};
+use crate::shape::edit;
+use ductile_mesh::SourceTag;
+use ductile_spec::{CurveId, PointId};
+
+/// Frees every curve and surface from a control point and removes it.
+pub(crate) fn release(model: &mut Model, point: PointId) -> Result<(), ModelError> {
+    model.point(point)?;
+    if is_unused(model, point) {
+        return Err(ModelError::NothingToRelease(point));
+    }
+    let surfaces: Vec<_> = model.document.surfaces_through(point).collect();
+    for id in model.document.curves_through(point).collect::<Vec<_>>() {
+        release_from_curve(model, id, point)?;
+    }
+    for id in &surfaces {
+        let revision = model.next_revision();
+        if let Some(shape) = model.surfaces.get_mut(id).map(edit) {
+            shape.pins.retain(|pin| pin.point != point);
+            let tagged: Vec<_> = shape
+                .mesh
+                .vertices()
+                .filter(|v| shape.mesh.vertex_source(*v) == Some(SourceTag(point.0)))
+                .collect();
+            for vertex in tagged {
+                shape.mesh.set_vertex_source(vertex, None);
+            }
+            shape.revision = revision;
+        }
+        refresh_skeleton(model, *id);
+    }
+    model.document_mut().points.remove(&point);
+    model.document.validate()?;
+    Ok(())
+}
+
+fn release_from_curve(model: &mut Model, id: CurveId, point: PointId) -> Result<(), ModelError> {
+    let refuse = |why| Err(ModelError::NeededByCurve { curve: id, point, why });
+    let curve = model.document.curves.get(&id).ok_or(ModelError::NoCurve(id))?;
+    let is_end = curve.through.first() == Some(&point) || curve.through.last() == Some(&point);
+    if !curve.closed && is_end {
+        return refuse("an open curve ends at it");
+    }
+    if curve.closed && curve.through.len() <= 3 {
+        return refuse("a closed curve needs three points");
+    }
+    if let Some(curve) = model.document_mut().curves.get_mut(&id) {
+        curve.through.retain(|other| *other != point);
+    }
+    let revision = model.next_revision();
+    if let Some(shape) = model.curves.get_mut(&id).map(edit) {
+        shape.controls.retain(|(_, other)| *other != point);
+        shape.revision = revision;
+    }
+    Ok(())
+}

@@ -1,0 +1,224 @@
+//! From a document to shapes: the skeleton is cut along its curves' samples and refined to the spacing
+//! ("rehydrated"). The result is the linear skin over the skeleton, which thesis section 7.1.3 found to be
+//! a good start; the relaxer does the rest.
+
+use crate::bound::{BoundCurve, BoundSurface, Motion};
+use crate::error::ModelError;
+use crate::maintain::{self, FEWEST_EDGES};
+use crate::model::NODE_BUDGET;
+use crate::shape::{CurveShape, EmbeddedCurve, Pin, SurfaceShape};
+use ductile_mesh::{Mesh, SourceTag, VertexId, measure, propagate_orientation};
+use ductile_spec::{CurveId, Document, PointId, Skeleton, SkeletonVertex, SurfaceId};
+use glam::DVec3;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Steps that a new curve may take to come to rest.
+const CURVE_STEPS: usize = 80;
+/// Below this part of the largest coordinate a shape has no extent.
+const LEAST_EXTENT: f64 = 1e-9;
+
+/// Samples a curve of the document and brings it to rest.
+pub(crate) fn build_curve(
+    document: &Document,
+    id: CurveId,
+    spacing: f64,
+    revision: u64,
+) -> Result<CurveShape, ModelError> {
+    let curve = document.curves.get(&id).ok_or(ModelError::NoCurve(id))?;
+    let at = |point: &PointId| document.points.get(point).copied().ok_or(ModelError::NoPoint(*point));
+    let corners = curve.through.iter().map(at).collect::<Result<Vec<_>, _>>()?;
+    let count = corners.len();
+    let stretches = if curve.closed { count } else { count - 1 };
+    let total: f64 = (0..stretches).map(|k| (corners[(k + 1) % count] - corners[k]).length()).sum();
+    check_budget(spacing, total / spacing, NODE_BUDGET / 4)?;
+    let mut shape = CurveShape { nodes: Vec::new(), closed: curve.closed, controls: Vec::new(), revision };
+    for k in 0..stretches {
+        let (from, to) = (corners[k], corners[(k + 1) % count]);
+        if (to - from).length() <= LEAST_EXTENT * (1.0 + from.abs().max_element()) {
+            return Err(ModelError::NoExtent(id.to_string()));
+        }
+        let edges = edges_of_stretch(document, id, k, (to - from).length() / spacing);
+        shape.controls.push((count_u32(shape.nodes.len()), curve.through[k]));
+        let tangent = |i: usize| tangent(&corners, i, curve.closed);
+        let (leaving, arriving) = (tangent(k), tangent((k + 1) % count));
+        shape.nodes.extend((0..edges).map(|j| hermite(from, to, leaving, arriving, j as f64 / edges as f64)));
+    }
+    if !curve.closed {
+        shape.controls.push((count_u32(shape.nodes.len()), curve.through[count - 1]));
+        shape.nodes.push(corners[count - 1]);
+    }
+    let mut bound = BoundCurve::new(id, &shape)?;
+    for round in 0..CURVE_STEPS {
+        let (_, rests) = bound
+            .relax(&mut shape.nodes, &Motion::default())
+            .map_err(|reason| ModelError::Unsolvable { what: id.to_string(), reason })?;
+        if rests && round > 3 {
+            break;
+        }
+        if round % 3 == 2 {
+            maintain::spread(&mut shape);
+        }
+    }
+    Ok(shape)
+}
+
+/// Edges of a stretch: as many as its length asks for, and no fewer than a skeleton's path has there.
+fn edges_of_stretch(document: &Document, id: CurveId, stretch: usize, wanted: f64) -> usize {
+    let mut edges = count_edges(wanted).max(FEWEST_EDGES);
+    for skeleton in document.surfaces.values().map(|s| &s.skeleton) {
+        for embedding in skeleton.curves.iter().filter(|e| e.curve == id) {
+            edges =
+                edges.max(chains(skeleton, &embedding.along).get(stretch).map_or(0, |chain| chain.len() - 1));
+        }
+    }
+    edges
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the budget was checked: small and positive"
+)]
+fn count_edges(wanted: f64) -> usize {
+    wanted.ceil().clamp(1.0, NODE_BUDGET as f64) as usize
+}
+
+fn count_u32(n: usize) -> u32 {
+    u32::try_from(n).unwrap_or(u32::MAX)
+}
+
+/// Direction of the first guess at a control point: along the chord of its neighbours.
+fn tangent(corners: &[DVec3], i: usize, closed: bool) -> DVec3 {
+    let n = corners.len();
+    let before = if closed || i > 0 { corners[(i + n - 1) % n] } else { corners[i] };
+    let after = if closed || i + 1 < n { corners[(i + 1) % n] } else { corners[i] };
+    (after - before).normalize_or_zero()
+}
+
+/// A cubic with the given ends and directions, as long as its chord.
+fn hermite(from: DVec3, to: DVec3, leaving: DVec3, arriving: DVec3, t: f64) -> DVec3 {
+    let chord = (to - from).length();
+    let (s, tt) = (1.0 - t, t * t);
+    from * (s * s * (1.0 + 2.0 * t))
+        + to * (tt * (3.0 - 2.0 * t))
+        + (leaving * (s * s * t) - arriving * (tt * s)) * chord
+}
+
+/// Meshes a surface of the document over its curves as they are now.
+pub(crate) fn build_surface(
+    document: &Document,
+    curves: &BTreeMap<CurveId, Arc<CurveShape>>,
+    id: SurfaceId,
+    spacing: f64,
+    revision: u64,
+) -> Result<SurfaceShape, ModelError> {
+    let skeleton = &document.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?.skeleton;
+    let mut mesh = Mesh::from_triangles(skeleton.vertices.len(), &skeleton.triangles)
+        .map_err(|reason| ModelError::NotASurface { surface: id, reason })?;
+    propagate_orientation(&mut mesh);
+    let mut positions = Vec::with_capacity(skeleton.vertices.len());
+    for (index, vertex) in skeleton.vertices.iter().enumerate() {
+        positions.push(match vertex {
+            SkeletonVertex::Free(at) => *at,
+            SkeletonVertex::Control(point) => {
+                mesh.set_vertex_source(VertexId::from_index(index), Some(SourceTag(point.0)));
+                *document.points.get(point).ok_or(ModelError::NoPoint(*point))?
+            }
+        });
+    }
+    let area = measure::total_area(&mesh, &positions);
+    let largest = positions.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
+    if area.is_nan() || area <= (LEAST_EXTENT * (1.0 + largest)) * (LEAST_EXTENT * (1.0 + largest)) {
+        return Err(ModelError::NoExtent(id.to_string()));
+    }
+    // A regular mesh has 2 / sqrt(3) nodes for each square of its edge length.
+    check_budget(spacing, 1.155 * area / (spacing * spacing), NODE_BUDGET)?;
+    let mut shape =
+        SurfaceShape { mesh, positions, embeddings: Vec::new(), pins: Vec::new(), spacing, revision };
+    embed_curves(&mut shape, skeleton, curves)?;
+    for (index, vertex) in skeleton.vertices.iter().enumerate() {
+        let vertex_id = VertexId::from_index(index);
+        if let SkeletonVertex::Control(point) = vertex
+            && !shape.embeddings.iter().any(|e| e.vertices.contains(&vertex_id))
+        {
+            shape.pins.push(Pin { vertex: vertex_id, point: *point });
+        }
+    }
+    maintain::refine(&mut shape);
+    BoundSurface::new(id, &shape)?;
+    Ok(shape)
+}
+
+fn check_budget(spacing: f64, nodes: f64, limit: usize) -> Result<(), ModelError> {
+    if nodes <= limit as f64 {
+        return Ok(());
+    }
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "only shown to the user; saturates"
+    )]
+    Err(ModelError::TooFine { spacing, nodes: nodes as usize, limit })
+}
+
+/// Splits the skeleton's edges at the samples of its curves and marks them.
+fn embed_curves(
+    shape: &mut SurfaceShape,
+    skeleton: &Skeleton,
+    curves: &BTreeMap<CurveId, Arc<CurveShape>>,
+) -> Result<(), ModelError> {
+    for embedding in &skeleton.curves {
+        let curve = curves.get(&embedding.curve).ok_or(ModelError::NoCurve(embedding.curve))?;
+        let mut vertices = vec![None; curve.nodes.len()];
+        for (chain, (first, count)) in chains(skeleton, &embedding.along).iter().zip(curve.stretches()) {
+            // Path vertex j of the chain takes the sample at its share of the stretch.
+            let sample = |j: usize| j * count / (chain.len() - 1);
+            for j in 0..chain.len() - 1 {
+                let mut from = VertexId::from_index(chain[j] as usize);
+                let to = VertexId::from_index(chain[j + 1] as usize);
+                if let Some(edge) = shape.mesh.edge_between(from, to) {
+                    shape.mesh.set_edge_source(edge, Some(SourceTag(embedding.curve.0)));
+                }
+                for k in sample(j)..sample(j + 1) {
+                    let index = (first + k) % curve.nodes.len();
+                    if k > sample(j) {
+                        let Some(edge) = shape.mesh.edge_between(from, to) else { break };
+                        from = shape.mesh.split_edge(edge);
+                        shape.positions.resize(shape.mesh.vertex_slots(), DVec3::ZERO);
+                    }
+                    shape.positions[from.index()] = curve.nodes[index];
+                    vertices[index] = Some(from);
+                }
+            }
+        }
+        if !curve.closed
+            && let (Some(last), Some(slot)) = (embedding.along.last(), vertices.last_mut())
+        {
+            *slot = Some(VertexId::from_index(*last as usize));
+        }
+        let vertices: Option<Vec<VertexId>> = vertices.into_iter().collect();
+        let vertices = vertices.ok_or_else(|| ModelError::NoExtent(embedding.curve.to_string()))?;
+        shape.embeddings.push(EmbeddedCurve { curve: embedding.curve, vertices });
+    }
+    Ok(())
+}
+
+/// The path of a curve in a skeleton, cut at its control points: one chain of vertices for each stretch.
+fn chains(skeleton: &Skeleton, along: &[u32]) -> Vec<Vec<u32>> {
+    let is_control = |v: &u32| matches!(skeleton.vertices.get(*v as usize), Some(SkeletonVertex::Control(_)));
+    let mut chains: Vec<Vec<u32>> = Vec::new();
+    for v in along {
+        if let Some(chain) = chains.last_mut() {
+            chain.push(*v);
+        }
+        if is_control(v) {
+            chains.push(vec![*v]);
+        }
+    }
+    // The last chain closes the curve, or is the lone end of an open one.
+    if let (Some(chain), Some(first)) = (chains.last_mut(), along.first()) {
+        chain.push(*first);
+    }
+    chains
+}

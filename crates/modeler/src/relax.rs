@@ -1,0 +1,258 @@
+//! The basic shape iteration (thesis section 7.1.1): points, then curves, then the surfaces that follow
+//! them, each a step towards its fairest shape; then the mesh is improved, when nothing moves fast.
+
+use crate::bound::{BoundCurve, BoundSurface, Motion};
+use crate::maintain;
+use crate::model::Model;
+use crate::shape::{CurveShape, SurfaceShape, edit};
+use ductile_solver::Budget;
+use ductile_spec::{CurveId, Figures, SurfaceId};
+use std::collections::BTreeMap;
+
+/// The mesh is improved at most every so many steps (recipe, section 6).
+const MAINTENANCE_PERIOD: u32 = 3;
+/// Slow steps after a fast one before the mesh is improved again (recipe, section 7).
+const SLOW_STEPS: u32 = 3;
+/// Rounds of improvement after an act; afterwards the mesh is left as it is, so that rest is certain.
+const MOST_ROUNDS: u32 = 60;
+/// Steps after an act before a shape that does not come to rest is called settled all the same.
+const MOST_STEPS: u32 = 600;
+/// Strain-limited parts of a motion that one step carries out (recipe, section 5).
+const SUBSTEPS: u32 = 4;
+
+/// How a relaxation stands.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Relaxation {
+    /// Energy of the surface.
+    pub energy: f64,
+    /// Decrease that the last step promised, relative to the energy.
+    pub residual: f64,
+    /// Iterations of the last step.
+    pub iterations: u32,
+    /// The solver rests and every control is met.
+    pub at_rest: bool,
+    /// The mesh needs no improvement.
+    pub is_quiet: bool,
+}
+
+/// The solvers of a model and how far they are.
+#[derive(Clone, Debug, Default)]
+pub struct Relaxer {
+    surfaces: BTreeMap<SurfaceId, BoundSurface>,
+    curves: BTreeMap<CurveId, BoundCurve>,
+    states: BTreeMap<SurfaceId, Relaxation>,
+    curves_at_rest: BTreeMap<CurveId, bool>,
+    steps: u32,
+    steps_since_act: u32,
+    rounds: u32,
+    fast: u32,
+    hand: f64,
+    rescues: u32,
+}
+
+impl Relaxer {
+    /// The bound solver of a surface, if it is for this shape.
+    #[must_use]
+    pub fn surface(&self, id: SurfaceId, shape: &SurfaceShape) -> Option<&BoundSurface> {
+        self.surfaces.get(&id).filter(|bound| bound.revision == shape.revision)
+    }
+
+    /// How each surface stands.
+    pub fn states(&self) -> impl Iterator<Item = (SurfaceId, Relaxation)> + '_ {
+        self.states.iter().map(|(id, state)| (*id, *state))
+    }
+
+    /// Something was changed: everything must prove again that it rests.
+    pub(crate) fn wake(&mut self) {
+        self.states.clear();
+        self.curves_at_rest.clear();
+        self.rounds = 0;
+        self.steps_since_act = 0;
+    }
+
+    /// The hand moved what it holds by a distance.
+    pub(crate) fn hand_moved(&mut self, distance: f64) {
+        self.hand = distance;
+        if distance > 0.0 {
+            self.rounds = 0;
+            self.steps_since_act = 0;
+        }
+    }
+
+    /// Something impossible was asked for and ignored.
+    pub(crate) fn count_rescue(&mut self) {
+        self.rescues = self.rescues.saturating_add(1);
+    }
+
+    /// Whether nothing will move any more.
+    #[must_use]
+    pub fn is_settled(&self) -> bool {
+        let rests = |state: &Relaxation| state.at_rest && state.is_quiet;
+        let all_rest = self.states.len() == self.surfaces.len()
+            && self.states.values().all(rests)
+            && self.curves_at_rest.len() == self.curves.len()
+            && self.curves_at_rest.values().all(|rests| *rests);
+        all_rest || self.steps_since_act >= MOST_STEPS
+    }
+
+    /// Makes sure that there is a solver for each shape as it is now, and none for others.
+    pub(crate) fn bind(&mut self, model: &Model) {
+        self.surfaces
+            .retain(|id, bound| model.surfaces.get(id).is_some_and(|s| s.revision == bound.revision));
+        self.curves.retain(|id, bound| model.curves.get(id).is_some_and(|c| c.revision == bound.revision));
+        self.states.retain(|id, _| model.surfaces.contains_key(id));
+        self.curves_at_rest.retain(|id, _| model.curves.contains_key(id));
+        for (id, shape) in &model.surfaces {
+            if let Some(bound) = self.surfaces.get_mut(id) {
+                bound.read(shape);
+                continue;
+            }
+            self.states.remove(id);
+            match BoundSurface::new(*id, shape) {
+                Ok(bound) => drop(self.surfaces.insert(*id, bound)),
+                Err(_) => self.rescues = self.rescues.saturating_add(1),
+            }
+        }
+        for (id, shape) in &model.curves {
+            if !self.curves.contains_key(id) {
+                self.curves_at_rest.remove(id);
+                match BoundCurve::new(*id, shape) {
+                    Ok(bound) => drop(self.curves.insert(*id, bound)),
+                    Err(_) => self.rescues = self.rescues.saturating_add(1),
+                }
+            }
+        }
+    }
+
+    /// One shape iteration with at most so many conjugate-gradient iterations for each surface.
+    pub(crate) fn step(&mut self, model: &mut Model, iterations: u32) {
+        self.bind(model);
+        let budget = Budget { iterations: iterations.clamp(1, 10_000) };
+        let is_fast = self.hand > model.spacing();
+        self.fast = if is_fast { SLOW_STEPS } else { self.fast.saturating_sub(1) };
+        self.hand = 0.0;
+        self.steps = self.steps.saturating_add(1);
+        self.steps_since_act = self.steps_since_act.saturating_add(1);
+        for id in model.curves.keys().copied().collect::<Vec<_>>() {
+            self.step_curve(model, id);
+        }
+        for id in model.surfaces.keys().copied().collect::<Vec<_>>() {
+            self.step_surface(model, id, budget);
+        }
+        let is_due = self.steps.is_multiple_of(MAINTENANCE_PERIOD) && self.fast == 0;
+        if is_due {
+            self.maintain(model);
+        }
+    }
+
+    fn step_curve(&mut self, model: &mut Model, id: CurveId) {
+        let (Some(bound), Some(shape)) = (self.curves.get_mut(&id), model.curves.get(&id)) else { return };
+        let motion = BoundCurve::motion(model, shape);
+        if motion.is_empty() && self.curves_at_rest.get(&id) == Some(&true) {
+            return;
+        }
+        let mut nodes = shape.nodes.clone();
+        let outcome = bound.relax(&mut nodes, &motion);
+        let is_met = motion.is_empty() || outcome.is_ok_and(|(met, _)| met);
+        let rests = matches!(outcome, Ok((_, true)));
+        if outcome.is_err() {
+            self.rescues = self.rescues.saturating_add(1);
+        } else if let Some(shape) = model.curves.get_mut(&id).map(edit::<CurveShape>) {
+            shape.nodes = nodes;
+        }
+        self.curves_at_rest.insert(id, is_met && rests && motion.is_empty());
+    }
+
+    fn step_surface(&mut self, model: &mut Model, id: SurfaceId, budget: Budget) {
+        let (Some(bound), Some(shape)) = (self.surfaces.get_mut(&id), model.surfaces.get(&id)) else {
+            return;
+        };
+        let mut motion = bound.motion(model, shape);
+        let before = self.states.get(&id).copied().unwrap_or_default();
+        if motion.is_empty() && before.at_rest {
+            return;
+        }
+        let mut state = Relaxation { is_quiet: before.is_quiet, ..Relaxation::default() };
+        for _ in 0..SUBSTEPS {
+            if motion.is_empty() {
+                break;
+            }
+            match bound.carry(&motion) {
+                Ok(true) => {
+                    motion = Motion::default();
+                    break;
+                }
+                Ok(false) => {}
+                Err(_) => {
+                    self.rescues = self.rescues.saturating_add(1);
+                    break;
+                }
+            }
+            motion = bound.motion(model, shape);
+            if let Ok(report) = bound.solver.step(&mut bound.positions, budget) {
+                self.rescues = self.rescues.saturating_add(u32::from(report.damped));
+            }
+        }
+        match bound.solver.step(&mut bound.positions, budget) {
+            Ok(report) => {
+                state.energy = report.energy;
+                state.residual =
+                    if report.energy > 0.0 { report.predicted_decrease / report.energy } else { 0.0 };
+                state.iterations = report.cg_iterations;
+                state.at_rest = report.at_rest && motion.is_empty();
+                self.rescues = self.rescues.saturating_add(u32::from(report.damped));
+            }
+            Err(_) => self.rescues = self.rescues.saturating_add(1),
+        }
+        self.states.insert(id, state);
+        if let Some(shape) = model.surfaces.get_mut(&id) {
+            bound.write(edit(shape));
+        }
+    }
+
+    /// Improves the meshes (thesis chapter 6) and binds anew what was changed.
+    fn maintain(&mut self, model: &mut Model) {
+        if self.rounds >= MOST_ROUNDS {
+            self.states.values_mut().for_each(|state| state.is_quiet = true);
+            return;
+        }
+        if self.states.len() == self.surfaces.len() && self.states.values().all(|s| s.is_quiet && s.at_rest) {
+            return;
+        }
+        self.rounds += 1;
+        for id in model.curves.keys().copied().collect::<Vec<_>>() {
+            if maintain::curve(model, id) {
+                self.curves_at_rest.remove(&id);
+            }
+        }
+        self.bind(model);
+        for id in model.surfaces.keys().copied().collect::<Vec<_>>() {
+            let Some(bound) = self.surfaces.get(&id) else { continue };
+            let edited = maintain::surface(model, id, bound);
+            if edited {
+                self.bind(model);
+            }
+            let (Some(bound), Some(shape)) = (self.surfaces.get_mut(&id), model.surfaces.get_mut(&id)) else {
+                continue;
+            };
+            let moved = maintain::smooth(shape, bound);
+            let state = self.states.entry(id).or_default();
+            state.is_quiet = !edited && !moved;
+            state.at_rest &= state.is_quiet;
+        }
+    }
+
+    /// What the status line shows.
+    #[must_use]
+    pub(crate) fn figures(&self, model: &Model) -> Figures {
+        Figures {
+            nodes: u32::try_from(model.node_count()).unwrap_or(u32::MAX),
+            energy: self.surfaces.values().map(BoundSurface::energy).sum(),
+            residual: self.states.values().map(|state| state.residual).fold(0.0, f64::max),
+            iterations: self.states.values().map(|state| state.iterations).max().unwrap_or(0),
+            steps: self.steps,
+            rescues: self.rescues,
+            step_milliseconds: 0.0,
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! Shadowing (thesis section 7.3.3): an embedded curve follows its control curve node for node, so a
+//! refinement of the curve is at once a refinement of every surface that follows it.
+
+use crate::error::ModelError;
+use crate::model::Model;
+use crate::shape::edit;
+use ductile_spec::CurveId;
+use glam::DVec3;
+
+/// Puts a new sample into an edge of a curve and a new vertex into every surface that follows it.
+/// Returns the index of the sample.
+pub(crate) fn insert_sample(
+    model: &mut Model,
+    id: CurveId,
+    edge: usize,
+    at: DVec3,
+) -> Result<usize, ModelError> {
+    let revision = model.next_revision();
+    let shape = edit(model.curves.get_mut(&id).ok_or(ModelError::NoCurve(id))?);
+    let (a, b) = shape.edge(edge);
+    let sample = edge + 1;
+    shape.nodes.insert(sample, at);
+    for (index, _) in &mut shape.controls {
+        if *index as usize >= sample {
+            *index += 1;
+        }
+    }
+    shape.revision = revision;
+    for surface in model.document.surfaces_on(id).collect::<Vec<_>>() {
+        let revision = model.next_revision();
+        let Some(shape) = model.surfaces.get_mut(&surface).map(edit) else { continue };
+        for k in 0..shape.embeddings.len() {
+            if shape.embeddings[k].curve != id {
+                continue;
+            }
+            let (from, to) = (shape.embeddings[k].vertices[a], shape.embeddings[k].vertices[b]);
+            let Some(between) = shape.mesh.edge_between(from, to) else { continue };
+            let vertex = shape.mesh.split_edge(between);
+            shape.positions.resize(shape.mesh.vertex_slots(), at);
+            shape.positions[vertex.index()] =
+                shape.positions[from.index()].midpoint(shape.positions[to.index()]);
+            shape.embeddings[k].vertices.insert(sample, vertex);
+        }
+        shape.revision = revision;
+    }
+    Ok(sample)
+}
+
+/// Takes a sample out of a curve and its vertices out of every surface that follows it. Returns whether
+/// that was possible; if not, nothing has changed.
+pub(crate) fn remove_sample(model: &mut Model, id: CurveId, sample: usize) -> bool {
+    let Some(shape) = model.curves.get(&id) else { return false };
+    let count = shape.nodes.len();
+    if count <= 4 || shape.is_control(sample) || (!shape.closed && (sample == 0 || sample + 1 == count)) {
+        return false;
+    }
+    let before = (sample + count - 1) % count;
+    let surfaces: Vec<_> = model.document.surfaces_on(id).collect();
+    let possible = surfaces.iter().all(|surface| {
+        model.surfaces.get(surface).is_some_and(|shape| {
+            let mut on_curve = shape.embeddings.iter().filter(|e| e.curve == id);
+            on_curve.all(|e| shape.mesh.can_collapse(e.vertices[sample], e.vertices[before]).is_ok())
+        })
+    });
+    if !possible {
+        return false;
+    }
+    let revision = model.next_revision();
+    if let Some(shape) = model.curves.get_mut(&id).map(edit) {
+        shape.nodes.remove(sample);
+        for (index, _) in &mut shape.controls {
+            if *index as usize > sample {
+                *index -= 1;
+            }
+        }
+        shape.revision = revision;
+    }
+    for surface in surfaces {
+        let revision = model.next_revision();
+        let Some(shape) = model.surfaces.get_mut(&surface).map(edit) else { continue };
+        for k in 0..shape.embeddings.len() {
+            if shape.embeddings[k].curve == id {
+                let (gone, kept) =
+                    (shape.embeddings[k].vertices[sample], shape.embeddings[k].vertices[before]);
+                shape.mesh.collapse(gone, kept);
+                shape.embeddings[k].vertices.remove(sample);
+            }
+        }
+        shape.revision = revision;
+    }
+    true
+}

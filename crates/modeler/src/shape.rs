@@ -1,0 +1,146 @@
+//! The current approximation of what the document specifies: sampled curves and meshed surfaces.
+//!
+//! Shapes hold no solver state, so they can be shared, kept for undo and compared. A `revision` names a
+//! connectivity: solvers and frames that were made for another revision are out of date.
+
+use ductile_mesh::{Mesh, VertexId};
+use ductile_spec::{CurveId, PointId};
+use glam::DVec3;
+use std::sync::Arc;
+
+/// A sampled fair curve.
+#[derive(Clone, Debug)]
+pub struct CurveShape {
+    /// The samples, in order; a closed curve does not repeat its first.
+    pub nodes: Vec<DVec3>,
+    /// Whether the last sample joins the first.
+    pub closed: bool,
+    /// Which sample lies on which control point, in the order of the curve; indices ascend.
+    pub controls: Vec<(u32, PointId)>,
+    /// Names this sampling.
+    pub revision: u64,
+}
+
+/// A meshed surface.
+#[derive(Clone, Debug)]
+pub struct SurfaceShape {
+    /// Connectivity; control points are tagged with their `PointId`, curve edges with their `CurveId`.
+    pub mesh: Mesh,
+    /// Positions by vertex slot.
+    pub positions: Vec<DVec3>,
+    /// The control curves that it follows, vertex by sample.
+    pub embeddings: Vec<EmbeddedCurve>,
+    /// The control points that it passes through apart from curves.
+    pub pins: Vec<Pin>,
+    /// Target edge length.
+    pub spacing: f64,
+    /// Names this connectivity.
+    pub revision: u64,
+}
+
+/// A control curve in a surface (shadowing, thesis section 7.3.3): as many vertices as the curve has samples.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct EmbeddedCurve {
+    /// The curve that is followed.
+    pub curve: CurveId,
+    /// The vertex that follows each sample.
+    pub vertices: Vec<VertexId>,
+}
+
+/// A control point of a surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pin {
+    /// The vertex.
+    pub vertex: VertexId,
+    /// The control point that it follows.
+    pub point: PointId,
+}
+
+impl CurveShape {
+    /// How many edges the curve has.
+    #[must_use]
+    pub fn edge_count(&self) -> usize {
+        if self.closed { self.nodes.len() } else { self.nodes.len().saturating_sub(1) }
+    }
+
+    /// Ends of an edge: sample `edge` and the one after it.
+    #[must_use]
+    pub fn edge(&self, edge: usize) -> (usize, usize) {
+        (edge, (edge + 1) % self.nodes.len())
+    }
+
+    /// The sample that lies on a control point.
+    #[must_use]
+    pub fn sample_of(&self, point: PointId) -> Option<usize> {
+        self.controls.iter().find(|(_, id)| *id == point).map(|(sample, _)| *sample as usize)
+    }
+
+    /// Whether a sample lies on a control point.
+    #[must_use]
+    pub fn is_control(&self, sample: usize) -> bool {
+        self.controls.iter().any(|(index, _)| *index as usize == sample)
+    }
+
+    /// The edges between one control point and the next, for each such stretch: first edge and how many.
+    #[must_use]
+    pub fn stretches(&self) -> Vec<(usize, usize)> {
+        let count = self.nodes.len();
+        let controls: Vec<usize> = self.controls.iter().map(|(index, _)| *index as usize).collect();
+        let mut stretches: Vec<(usize, usize)> = controls.windows(2).map(|w| (w[0], w[1] - w[0])).collect();
+        if let (true, Some(first), Some(last)) = (self.closed, controls.first(), controls.last()) {
+            stretches.push((*last, first + count - last));
+        }
+        stretches
+    }
+
+    /// Edge and parameter in [0, 1] of the place nearest to a given one.
+    #[must_use]
+    pub fn nearest(&self, at: DVec3) -> Option<(usize, f64)> {
+        let mut best: Option<(f64, usize, f64)> = None;
+        for edge in 0..self.edge_count() {
+            let (a, b) = self.edge(edge);
+            let (p, q) = (self.nodes[a], self.nodes[b]);
+            let squared = (q - p).length_squared();
+            let t = if squared > 0.0 { ((at - p).dot(q - p) / squared).clamp(0.0, 1.0) } else { 0.0 };
+            let distance = (p.lerp(q, t) - at).length_squared();
+            if best.is_none_or(|(least, ..)| distance < least) {
+                best = Some((distance, edge, t));
+            }
+        }
+        best.map(|(_, edge, t)| (edge, t))
+    }
+}
+
+impl SurfaceShape {
+    /// The vertices whose positions are given by controls, with the control that gives them.
+    pub fn controlled(&self) -> impl Iterator<Item = VertexId> + '_ {
+        let on_curves = self.embeddings.iter().flat_map(|e| e.vertices.iter().copied());
+        on_curves.chain(self.pins.iter().map(|pin| pin.vertex))
+    }
+
+    /// Largest distance of a vertex from the centre of their box.
+    #[must_use]
+    pub fn radius(&self) -> f64 {
+        let mut low = DVec3::INFINITY;
+        let mut high = DVec3::NEG_INFINITY;
+        for v in self.mesh.vertices() {
+            low = low.min(self.positions[v.index()]);
+            high = high.max(self.positions[v.index()]);
+        }
+        if low.x > high.x { 0.0 } else { (high - low).length() * 0.5 }
+    }
+
+    /// Rough size in memory.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        24 * self.positions.len()
+            + 16 * self.mesh.vertex_slots()
+            + 24 * self.mesh.edge_slots()
+            + 40 * self.mesh.face_slots()
+    }
+}
+
+/// A change to a shared shape copies it first if an undo entry still holds it.
+pub(crate) fn edit<T: Clone>(shape: &mut Arc<T>) -> &mut T {
+    Arc::make_mut(shape)
+}

@@ -1,0 +1,251 @@
+//! Skeletons: the least triangulations that hold a surface's topology and all of its controls.
+//!
+//! A sheet's skeleton triangulates the control points of its boundary; a sweep's zips the points of two
+//! curves together; that of a surface which was edited on screen is its mesh with everything inessential
+//! taken out ("dehydrated", thesis section 5.2).
+
+use crate::model::{Model, round_to_digits};
+use crate::shape::SurfaceShape;
+
+use ductile_mesh::{Dehydrated, VertexId, dehydrate};
+use ductile_spec::{CurveId, Embedding, PointId, Skeleton, SkeletonVertex};
+use glam::DVec3;
+
+/// Above this many boundary points the cubic search is replaced by a zigzag.
+const MOST_SEARCHED: usize = 250;
+/// How much a long diagonal counts against a large area: enough to decide between the equal areas of the
+/// triangulations of a convex plane polygon, too little to leave a concave one.
+const DIAGONAL_WEIGHT: f64 = 1e-3;
+/// Significant digits of the hints where free skeleton vertices lie.
+const HINT_DIGITS: usize = 4;
+
+/// The skeleton of a sheet in a closed curve with the given control points.
+pub(crate) fn sheet_skeleton(curve: CurveId, boundary: &[(PointId, DVec3)]) -> Skeleton {
+    let corners: Vec<DVec3> = boundary.iter().map(|(_, at)| *at).collect();
+    let triangles = if corners.len() > MOST_SEARCHED { zigzag(corners.len()) } else { least_area(&corners) };
+    Skeleton {
+        vertices: boundary.iter().map(|(id, _)| SkeletonVertex::Control(*id)).collect(),
+        triangles,
+        curves: vec![Embedding { curve, along: indices(0, corners.len()) }],
+    }
+}
+
+/// The skeleton of a cylinder between two closed curves with the given control points.
+pub(crate) fn sweep_skeleton(
+    from: (CurveId, &[(PointId, DVec3)]),
+    to: (CurveId, &[(PointId, DVec3)]),
+) -> Skeleton {
+    let low: Vec<DVec3> = from.1.iter().map(|(_, at)| *at).collect();
+    let high: Vec<DVec3> = to.1.iter().map(|(_, at)| *at).collect();
+    let centre = |points: &[DVec3]| points.iter().sum::<DVec3>() / points.len().max(1) as f64;
+    let shift = centre(&low) - centre(&high);
+    // Curves may be wound against each other and start anywhere: try every correspondence.
+    let mut best: Option<(f64, Vec<[u32; 3]>)> = None;
+    for reversed in [false, true] {
+        for start in 0..high.len() {
+            let (cost, triangles) = zip(&low, &high, shift, start, reversed);
+            if best.as_ref().is_none_or(|(least, _)| cost < *least) {
+                best = Some((cost, triangles));
+            }
+        }
+    }
+    let count = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
+    Skeleton {
+        vertices: from.1.iter().chain(to.1).map(|(id, _)| SkeletonVertex::Control(*id)).collect(),
+        triangles: best.map(|(_, triangles)| triangles).unwrap_or_default(),
+        curves: vec![
+            Embedding { curve: from.0, along: indices(0, low.len()) },
+            Embedding { curve: to.0, along: indices(count(low.len()), high.len()) },
+        ],
+    }
+}
+
+/// The skeleton of a surface as it is now.
+pub(crate) fn skeleton_of(model: &Model, shape: &SurfaceShape) -> Skeleton {
+    let Dehydrated { mesh: reduced, kept, .. } = dehydrate(&shape.mesh, &shape.positions);
+    let control = |v: VertexId| shape.mesh.vertex_source(v).map(|tag| PointId(tag.0));
+    // Controls first, by identity, then the rest: equal surfaces get equal skeletons.
+    let mut order: Vec<(Option<PointId>, VertexId, VertexId)> = Vec::new();
+    for v in shape.mesh.vertices() {
+        if let Some(new) = kept[v.index()] {
+            order.push((control(v), v, new));
+        }
+    }
+    order.sort_by_key(|(point, old, _)| (point.is_none(), *point, *old));
+    let mut place = vec![u32::MAX; reduced.vertex_slots()];
+    for (index, (.., new)) in (0_u32..).zip(&order) {
+        place[new.index()] = index;
+    }
+    let hint = |at: DVec3| DVec3::from_array(at.to_array().map(|x| round_to_digits(x, HINT_DIGITS)));
+    let vertices = order
+        .iter()
+        .map(|(point, old, _)| {
+            point.map_or_else(
+                || SkeletonVertex::Free(hint(shape.positions[old.index()])),
+                SkeletonVertex::Control,
+            )
+        })
+        .collect();
+    let triangles = reduced.faces().map(|f| reduced.face_vertices(f).map(|v| place[v.index()])).collect();
+    let curves = shape
+        .embeddings
+        .iter()
+        .map(|embedded| {
+            let first = model
+                .curves
+                .get(&embedded.curve)
+                .and_then(|c| c.controls.first())
+                .map_or(0, |c| c.0 as usize);
+            let (before, after) = embedded.vertices.split_at(first.min(embedded.vertices.len()));
+            let along = after.iter().chain(before);
+            let along = along.filter_map(|v| kept[v.index()]).map(|v| place[v.index()]).collect();
+            Embedding { curve: embedded.curve, along }
+        })
+        .collect();
+    Skeleton { vertices, triangles, curves }
+}
+
+fn indices(first: u32, count: usize) -> Vec<u32> {
+    (first..).take(count).collect()
+}
+
+/// The triangulation of a closed polygon in space with the least area (Barequet and Sharir 1995), by
+/// dynamic programming over its chords.
+fn least_area(corners: &[DVec3]) -> Vec<[u32; 3]> {
+    let n = corners.len();
+    let mut cost = vec![0.0_f64; n * n];
+    let mut apex = vec![0_usize; n * n];
+    for gap in 2..n {
+        for i in 0..n - gap {
+            let k = i + gap;
+            let mut best = f64::INFINITY;
+            for j in i + 1..k {
+                let (p, q, r) = (corners[i], corners[j], corners[k]);
+                let area = (q - p).cross(r - p).length() * 0.5;
+                let longest = (q - p).length_squared().max((r - q).length_squared());
+                let total = cost[i * n + j] + cost[j * n + k] + area + DIAGONAL_WEIGHT * longest;
+                if total < best {
+                    best = total;
+                    apex[i * n + k] = j;
+                }
+            }
+            cost[i * n + k] = best;
+        }
+    }
+    let mut triangles = Vec::with_capacity(n.saturating_sub(2));
+    let mut chords = vec![(0, n - 1)];
+    while let Some((i, k)) = chords.pop() {
+        if k - i >= 2 {
+            let j = apex[i * n + k];
+            triangles.push([i, j, k].map(|x| u32::try_from(x).unwrap_or(u32::MAX)));
+            chords.push((j, k));
+            chords.push((i, j));
+        }
+    }
+    triangles
+}
+
+fn zigzag(n: usize) -> Vec<[u32; 3]> {
+    let (mut low, mut high) = (0, n - 1);
+    let mut triangles = Vec::with_capacity(n.saturating_sub(2));
+    let mut from_low = true;
+    while high - low >= 2 {
+        let apex = if from_low { low + 1 } else { high - 1 };
+        triangles.push([low, apex, high].map(|x| u32::try_from(x).unwrap_or(u32::MAX)));
+        if from_low {
+            low += 1
+        } else {
+            high -= 1
+        }
+        from_low = !from_low;
+    }
+    triangles
+}
+
+/// Zips two loops together, always along the shorter of the two possible edges; the second loop starts at
+/// `start` and may be run through backwards. Lengths are measured after moving the loops' centres together,
+/// so that a leaning cylinder is not twisted.
+fn zip(low: &[DVec3], high: &[DVec3], shift: DVec3, start: usize, reversed: bool) -> (f64, Vec<[u32; 3]>) {
+    let (n, m) = (low.len(), high.len());
+    let there = |k: usize| if reversed { (start + m - k % m) % m } else { (start + k) % m };
+    let length = |a: usize, b: usize| (low[a % n] - high[there(b)] - shift).length_squared();
+    let name = |a: usize| u32::try_from(a % n).unwrap_or(u32::MAX);
+    let other = |b: usize| u32::try_from(n + there(b)).unwrap_or(u32::MAX);
+    let (mut a, mut b) = (0, 0);
+    let mut cost = length(0, 0);
+    let mut triangles = Vec::with_capacity(n + m);
+    while a < n || b < m {
+        let step_low = b >= m || (a < n && length(a + 1, b) <= length(a, b + 1));
+        if step_low {
+            triangles.push([name(a), name(a + 1), other(b)]);
+            a += 1;
+        } else {
+            triangles.push([name(a), other(b + 1), other(b)]);
+            b += 1;
+        }
+        cost += length(a, b);
+    }
+    (cost, triangles)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ductile_mesh::Mesh;
+    use glam::dvec3;
+
+    fn polygon(n: usize, z: f64) -> Vec<(PointId, DVec3)> {
+        let turn = core::f64::consts::TAU / n as f64;
+        (0..n)
+            .map(|k| {
+                let (sin, cos) = (libm::sin(k as f64 * turn), libm::cos(k as f64 * turn));
+                (PointId(u32::try_from(k).unwrap() + 1), dvec3(cos, sin, z))
+            })
+            .collect()
+    }
+
+    #[test]
+    fn a_sheet_covers_a_concave_polygon_exactly() {
+        // An L of area 3.
+        let at = [(0., 0.), (2., 0.), (2., 1.), (1., 1.), (1., 2.), (0., 2.)].map(|(x, y)| dvec3(x, y, 0.0));
+        let triangles = least_area(&at);
+        assert_eq!(triangles.len(), 4);
+        let area: f64 = triangles
+            .iter()
+            .map(|t| {
+                let [p, q, r] = t.map(|i| at[i as usize]);
+                (q - p).cross(r - p).length() * 0.5
+            })
+            .sum();
+        assert!((area - 3.0).abs() < 1e-12, "area {area}");
+        Mesh::from_triangles(6, &triangles).unwrap();
+    }
+
+    #[test]
+    fn sheets_and_sweeps_are_discs_and_cylinders() {
+        for n in 3..12 {
+            let sheet = sheet_skeleton(CurveId(1), &polygon(n, 0.0));
+            assert_eq!(Mesh::from_triangles(n, &sheet.triangles).unwrap().summary().euler, 1);
+            assert_eq!(Mesh::from_triangles(n, &zigzag(n)).unwrap().summary().euler, 1);
+            for m in 3..9 {
+                let sweep = sweep_skeleton((CurveId(1), &polygon(n, 0.0)), (CurveId(2), &polygon(m, 1.0)));
+                let summary = Mesh::from_triangles(n + m, &sweep.triangles).unwrap().summary();
+                assert_eq!((summary.euler, summary.boundaries), (0, 2), "{n} to {m}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_sweep_to_a_curve_wound_the_other_way_is_not_twisted() {
+        let low = polygon(6, 0.0);
+        let mut high = polygon(6, 1.0);
+        high.reverse();
+        let sweep = sweep_skeleton((CurveId(1), &low), (CurveId(2), &high));
+        let all: Vec<DVec3> = low.iter().chain(&high).map(|(_, at)| *at).collect();
+        for t in &sweep.triangles {
+            let [p, q, r] = t.map(|i| all[i as usize]);
+            let longest = (q - p).length().max((r - q).length()).max((p - r).length());
+            assert!(longest < 1.5, "an edge of {longest} crosses the cylinder");
+        }
+    }
+}

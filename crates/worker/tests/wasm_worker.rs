@@ -1,0 +1,6 @@
+//! The core in the browser, in a dedicated worker: the same bits as everywhere.
+#![cfg(target_arch = "wasm32")]
+
+mod core_in_browser;
+
+wasm_bindgen_test::wasm_bindgen_test_configure!(run_in_dedicated_worker);

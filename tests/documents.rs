@@ -1,0 +1,180 @@
+//! Documents become shapes: the examples relax to what theory says, acts change document and shape together,
+//! undo and redo restore the identical document.
+
+use acceptance::Bench;
+use core::f64::consts::PI;
+use ductile_spec::{CurveId, Edit, Example, PointId, Request, SurfaceId, to_fragment};
+use glam::{DVec3, dvec3};
+
+#[test]
+fn every_example_comes_to_rest() {
+    for example in Example::ALL {
+        let mut bench = Bench::with(example);
+        let energy = bench.rest(300);
+        assert!(energy.is_finite() && energy >= 0.0, "{example:?}: {energy}");
+    }
+}
+
+#[test]
+fn a_flat_disc_has_no_energy() {
+    let energy = Bench::with(Example::Disc).rest(300);
+    assert!(energy < 1e-6, "energy {energy}");
+}
+
+#[test]
+fn six_points_hold_a_round_ball() {
+    let mut bench = Bench::with(Example::Ball);
+    let energy = bench.rest(300);
+    assert!((energy / (8.0 * PI) - 1.0).abs() < 0.02, "energy {energy}, a sphere has 25.13");
+    let shape = &bench.modeler.model().surfaces[&SurfaceId(1)];
+    let radii = shape.mesh.vertices().map(|v| shape.positions[v.index()].length());
+    let (low, high) = radii.fold((f64::INFINITY, 0.0_f64), |(low, high), r| (low.min(r), high.max(r)));
+    assert!(low > 0.985 && high < 1.015, "radii from {low} to {high}");
+}
+
+#[test]
+fn controls_are_met_exactly_at_rest() {
+    for example in Example::ALL {
+        let mut bench = Bench::with(example);
+        bench.rest(300);
+        let model = bench.modeler.model();
+        for shape in model.surfaces.values() {
+            for pin in &shape.pins {
+                assert_eq!(
+                    shape.positions[pin.vertex.index()],
+                    model.document.points[&pin.point],
+                    "{example:?}"
+                );
+            }
+            for embedded in &shape.embeddings {
+                let curve = &model.curves[&embedded.curve];
+                for (v, node) in embedded.vertices.iter().zip(&curve.nodes) {
+                    assert_eq!(shape.positions[v.index()], *node, "{example:?}");
+                }
+            }
+        }
+        for curve in model.curves.values() {
+            for (sample, point) in &curve.controls {
+                assert_eq!(curve.nodes[*sample as usize], model.document.points[point], "{example:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_shape_does_not_depend_on_its_spacing() {
+    let energy_at = |spacing: f64| {
+        let mut bench = Bench::with(Example::RaisedDisc);
+        bench.edit(Edit::Spacing { spacing: Some(spacing) });
+        bench.rest(600)
+    };
+    let (coarse, fine) = (energy_at(0.08), energy_at(0.04));
+    assert!((coarse / fine - 1.0).abs() < 0.03, "{coarse} at 0.08, {fine} at 0.04");
+}
+
+#[test]
+fn a_document_built_by_acts_is_undone_to_nothing_and_redone_to_itself() {
+    let mut bench = Bench::new();
+    let square = [dvec3(1., 0., 0.), dvec3(0., 1., 0.), dvec3(-1., 0., 0.), dvec3(0., -1., 0.)];
+    bench.edit(Edit::Draw { at: square.to_vec(), closed: true });
+    bench.edit(Edit::Sheet { boundary: CurveId(1) });
+    bench.rest(300);
+    bench.edit(Edit::Pin { surface: SurfaceId(1), at: dvec3(0.1, 0.2, 0.0) });
+    bench.edit(Edit::Move { point: PointId(5), to: dvec3(0.1, 0.2, 0.6) });
+    bench.rest(300);
+    bench.edit(Edit::Insert { curve: CurveId(1), at: dvec3(0.7, 0.7, 0.0) });
+    bench.edit(Edit::Move { point: PointId(6), to: dvec3(0.9, 0.9, 0.3) });
+    bench.rest(300);
+    bench.edit(Edit::Draw { at: square.map(|p| p * 0.6 + DVec3::Z * 1.5).to_vec(), closed: true });
+    bench.edit(Edit::Sweep { from: CurveId(1), to: CurveId(2) });
+    bench.rest(300);
+    bench.edit(Edit::Release { point: PointId(5) });
+    bench.edit(Edit::Rename { name: "Hat".into() });
+    let last = bench.document();
+    assert_eq!(last.surfaces.len(), 2);
+    assert_eq!(
+        last.surfaces[&SurfaceId(1)].skeleton.triangles.len(),
+        3,
+        "a disc in five points needs three triangles"
+    );
+    let mut documents = vec![bench.document.clone()];
+    while bench.send(Request::Undo).refused.is_none() {
+        documents.push(bench.document.clone());
+    }
+    assert_eq!(documents.len(), 11);
+    assert!(bench.document().points.is_empty() && bench.document().surfaces.is_empty());
+    for expected in documents.iter().rev().skip(1) {
+        bench.accept(Request::Redo);
+        assert_eq!(&bench.document, expected);
+    }
+    assert!(bench.send(Request::Redo).refused.is_some());
+    bench.rest(300);
+}
+
+#[test]
+fn a_link_brings_the_same_document_and_the_same_surface() {
+    let mut sender = Bench::with(Example::RaisedDisc);
+    sender.rest(300);
+    sender.edit(Edit::Pin { surface: SurfaceId(1), at: dvec3(0.5, 0.3, 0.3) });
+    let point = *sender.document().points.last_key_value().unwrap().0;
+    sender.edit(Edit::Move { point, to: dvec3(0.5, 0.3, 0.8) });
+    let sent = sender.rest(300);
+    let mut friend = Bench::new();
+    friend.accept(Request::OpenLink { link: format!("#{}", to_fragment(&sender.document())) });
+    assert_eq!(friend.document, sender.document);
+    let received = friend.rest(300);
+    assert!((sent / received - 1.0).abs() < 0.02, "energy {sent} sent, {received} received");
+}
+
+#[test]
+fn damaged_documents_leave_the_model() {
+    let mut bench = Bench::with(Example::Saddle);
+    bench.rest(300);
+    let before = bench.document.clone();
+    let floats = bench.modeler.floats().to_vec();
+    let bad = [
+        "",
+        "{",
+        "{\"ductile\":9}",
+        r#"{"ductile":1,"points":{"1":[0,0,null]}}"#,
+        // Three triangles on an edge; then two triangles that only touch in a point.
+        r#"{"ductile":1,"points":{},"surfaces":{"1":{"skeleton":{"vertices":[[0,0,0],[1,0,0],[0,1,0],[0,0,1],[1,1,1]],"triangles":[[0,1,2],[0,1,3],[0,1,4]]}}}}"#,
+        r#"{"ductile":1,"points":{},"surfaces":{"1":{"skeleton":{"vertices":[[0,0,0],[1,0,0],[0,1,0],[0,0,1],[1,1,1]],"triangles":[[0,1,2],[0,3,4]]}}}}"#,
+        // All in one place.
+        r#"{"ductile":1,"points":{},"surfaces":{"1":{"skeleton":{"vertices":[[0,0,0],[0,0,0],[0,0,0]],"triangles":[[0,1,2]]}}}}"#,
+        r#"{"ductile":1,"points":{"1":[0,0,0],"2":[0,0,0],"3":[0,0,0]},"curves":{"1":{"through":[1,2,3],"closed":true}}}"#,
+    ];
+    for text in bad {
+        let reply = bench.send(Request::OpenText { text: text.into() });
+        assert!(reply.refused.is_some_and(|r| r.reason.len() > 10), "{text} was accepted");
+        assert_eq!(bench.modeler.floats(), floats, "{text} changed the model");
+    }
+    bench.accept(Request::Describe);
+    assert_eq!(bench.document, before);
+}
+
+#[test]
+fn surfaces_with_one_side_are_welcome() {
+    // A Möbius strip of five triangles, all corners free.
+    let corners: Vec<String> = (0..5)
+        .map(|k| {
+            let turn = 2.0 * PI * f64::from(k) / 5.0;
+            let lift = if k % 2 == 0 { 0.35 } else { -0.35 };
+            format!("[{}, {}, {lift}]", turn.cos(), turn.sin())
+        })
+        .collect();
+    let triangles = "[[0,1,2],[1,2,3],[2,3,4],[3,4,0],[4,0,1]]";
+    let points: Vec<String> = corners.iter().zip(1..).map(|(at, id)| format!("\"{id}\": {at}")).collect();
+    let text = format!(
+        r#"{{"ductile":1,"spacing":0.12,"points":{{{}}},"surfaces":{{"1":{{"skeleton":{{"vertices":[1,2,3,4,5],"triangles":{triangles}}}}}}}}}"#,
+        points.join(",")
+    );
+    let mut bench = Bench::new();
+    let reply = bench.accept(Request::OpenText { text });
+    let summary = reply.structure.unwrap().surfaces[0].summary;
+    assert_eq!((summary.euler, summary.boundaries, summary.orientable), (0, 1, false));
+    bench.rest(400);
+    let shape = &bench.modeler.model().surfaces[&SurfaceId(1)];
+    let summary = ductile_mesh::summary(&shape.mesh);
+    assert!(!summary.is_orientable && summary.euler == 0, "{summary:?}");
+}
