@@ -11,6 +11,7 @@ mod assembly;
 mod barrier;
 mod cg;
 mod component;
+mod curve;
 mod dense;
 mod energy;
 mod error;
@@ -29,6 +30,7 @@ mod smooth;
 mod surface;
 pub mod workload;
 
+pub use curve::{CurveSettings, CurveSolver, Resampled, resample, respace};
 pub use error::{Budget, Settings, SolverError};
 pub use factor::FactorError;
 pub use fit::Curvature;

@@ -1,0 +1,292 @@
+//! The linear systems of a curve: offsets in the normal planes, and scalar fields for the predictor.
+//!
+//! Rows of an inner node, scaled by `√ds`: `Σ_j z_j (R_ij alpha_j - alpha_i) + κ (κ·alpha_i)` with `z = 2 / (r S)`. Frames are
+//! transported along the curve without twist, so that `R_ij` is the identity except where a closed curve meets
+//! itself. Pentadiagonal but for that corner; factorised directly.
+
+use glam::DVec3;
+
+use super::energy::Bends;
+use super::{Chain, Solved};
+use crate::factor::Cholesky;
+use crate::operator::{FIXED, Unknowns};
+
+/// Relative shift of the diagonal; curves of thousands of nodes are conditioned like `n⁴`, so it has to be tiny.
+const DIAGONAL_SHIFT: f64 = 1e-14;
+
+/// Two unit vectors normal to the tangent, per node.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Frames {
+    axes: Vec<[DVec3; 2]>,
+}
+
+impl Frames {
+    /// Transports the first frame along the curve without twist.
+    pub(super) fn transport(&mut self, chain: Chain, bends: &Bends) {
+        self.axes.clear();
+        for node in 0..chain.count {
+            let tangent = bends.tangents[node];
+            let carried = match self.axes.last() {
+                Some(&[axis, _]) => turn(axis, bends.tangents[node - 1], tangent),
+                None => tangent.any_orthonormal_vector(),
+            };
+            // Against drift, and for a tangent that turned back on itself.
+            let flat = carried - tangent * carried.dot(tangent);
+            let axis = flat.try_normalize().unwrap_or_else(|| tangent.any_orthonormal_vector());
+            self.axes.push([axis, tangent.cross(axis)]);
+        }
+    }
+
+    /// `R`: the frame of `from` seen in that of `to`, after the smallest turn of its tangent.
+    fn relation(&self, bends: &Bends, from: usize, to: usize) -> [[f64; 2]; 2] {
+        let turned = self.axes[from].map(|axis| turn(axis, bends.tangents[from], bends.tangents[to]));
+        self.axes[to].map(|axis| [axis.dot(turned[0]), axis.dot(turned[1])])
+    }
+}
+
+/// Turns `vector` by the smallest rotation that takes the unit vector `from` to `to`.
+fn turn(vector: DVec3, from: DVec3, to: DVec3) -> DVec3 {
+    let sum = from + to;
+    let scale = sum.length_squared();
+    if scale < 1e-12 {
+        return vector;
+    }
+    // Two reflections: in the plane normal to `from`, then in the one normal to from + to.
+    let reflected = vector - from * (2.0 * vector.dot(from));
+    reflected - sum * (2.0 * reflected.dot(sum) / scale)
+}
+
+/// A sparse symmetric system over the free nodes, `width` unknowns each.
+#[derive(Clone, Debug)]
+pub(super) struct System {
+    unknowns: Unknowns,
+    width: usize,
+    /// Upper triangle by columns.
+    starts: Vec<u32>,
+    rows: Vec<u32>,
+    values: Vec<f64>,
+    cholesky: Cholesky,
+    solution: Vec<f64>,
+}
+
+/// The centre and its two neighbours, with the scalar weights of their rows.
+struct Stencil {
+    nodes: [usize; 3],
+    weights: [f64; 3],
+}
+
+impl Stencil {
+    fn new(chain: Chain, bends: &Bends, node: usize) -> Option<Self> {
+        let (before, after) = chain.neighbours(node)?;
+        let bend = &bends.nodes[node];
+        if !bend.is_inner {
+            return None;
+        }
+        let scale = bend.ds.sqrt() / bend.ds;
+        let (behind, ahead) = (scale / bend.r_behind, scale / bend.r_ahead);
+        Some(Self { nodes: [node, before, after], weights: [-(behind + ahead), behind, ahead] })
+    }
+}
+
+impl System {
+    #[expect(clippy::cast_possible_truncation, reason = "five entries per node of a curve")]
+    pub(super) fn new(chain: Chain, fixed: &[bool], width: usize) -> Solved<Self> {
+        let unknowns = Unknowns::new(fixed.iter().map(|fixed| !fixed));
+        let (mut starts, mut rows) = (vec![0_u32], Vec::new());
+        let mut near = Vec::new();
+        for &node in &unknowns.nodes {
+            near.clear();
+            near.push(node as usize);
+            for _ in 0..2 {
+                for i in 0..near.len() {
+                    let node = near[i];
+                    let ends = chain.neighbours(node).or_else(|| end_neighbour(chain, node));
+                    near.extend(ends.into_iter().flat_map(|(a, b)| [a, b]));
+                }
+                near.sort_unstable();
+                near.dedup();
+            }
+            let mut columns: Vec<u32> =
+                near.iter().map(|&node| unknowns.index[node]).filter(|&index| index != FIXED).collect();
+            columns.sort_unstable();
+            let column = unknowns.index[node as usize];
+            for inner in 0..width as u32 {
+                let scalar = column * width as u32 + inner;
+                let entries = columns.iter().flat_map(|&other| (0..width as u32).map(move |i| other * width as u32 + i));
+                rows.extend(entries.filter(|&row| row <= scalar));
+                starts.push(rows.len() as u32);
+            }
+        }
+        let cholesky = Cholesky::new(starts.clone(), rows.clone())?;
+        let values = vec![0.0; rows.len()];
+        let solution = vec![0.0; unknowns.len() * width];
+        Ok(Self { unknowns, width, starts, rows, values, cholesky, solution })
+    }
+
+    /// Solves `A alpha = -g/2` and returns the slope `g·alpha`.
+    pub(super) fn newton(
+        &mut self,
+        chain: Chain,
+        bends: &Bends,
+        frames: &Frames,
+        gradient: &[DVec3],
+        mass: f64,
+    ) -> Solved<f64> {
+        self.values.fill(0.0);
+        for node in 0..chain.count {
+            let Some(stencil) = Stencil::new(chain, bends, node) else { continue };
+            let blocks = offset_blocks(bends, frames, &stencil);
+            self.add_products(&stencil.nodes, &blocks);
+        }
+        let pull = bends.price.slope(bends.length);
+        if pull > 0.0 {
+            self.stretch(chain, bends, frames, pull);
+        }
+        self.finish(|node| mass * bends.nodes[node].ds)?;
+        let rhs = self.project(frames, gradient, -0.5);
+        self.solution.copy_from_slice(&rhs);
+        self.cholesky.solve(&mut self.solution);
+        let stiffness = 0.5 * bends.price.curvature(bends.length);
+        if stiffness > 0.0 {
+            self.correct_for_rope(chain, bends, frames, stiffness);
+        }
+        Ok(-2.0 * crate::cg::dot(&rhs, &self.solution))
+    }
+
+    /// A vector field seen in the frames of the free nodes.
+    fn project(&self, frames: &Frames, field: &[DVec3], factor: f64) -> Vec<f64> {
+        let nodes = self.unknowns.nodes.iter().map(|&node| node as usize);
+        nodes.flat_map(|node| frames.axes[node].map(|axis| factor * field[node].dot(axis))).collect()
+    }
+
+    /// Second-order growth of the length under a pull: `pull |alpha_i - alpha_j|² / 2 r` per edge.
+    fn stretch(&mut self, chain: Chain, bends: &Bends, frames: &Frames, pull: f64) {
+        for (from, to) in chain.edges() {
+            let length = bends.positions[from].distance(bends.positions[to]);
+            if !(length > 0.0) {
+                continue;
+            }
+            let root = (0.5 * pull / length).sqrt();
+            let far = frames.relation(bends, to, from).map(|row| row.map(|x| x * root));
+            self.add_products(&[from, to], &[[[-root, 0.0], [0.0, -root]], far]);
+        }
+    }
+
+    /// The rope's own stiffness `s c cᵀ` with `c = dL/dalpha`, dense but of rank one (Sherman, Morrison 1950).
+    fn correct_for_rope(&mut self, chain: Chain, bends: &Bends, frames: &Frames, stiffness: f64) {
+        let mut gradient = vec![DVec3::ZERO; chain.count];
+        bends.add_length_gradient(chain, 1.0, &mut gradient);
+        let c = self.project(frames, &gradient, 1.0);
+        let mut z = c.clone();
+        self.cholesky.solve(&mut z);
+        let along = stiffness * crate::cg::dot(&c, &self.solution) / (1.0 + stiffness * crate::cg::dot(&c, &z));
+        for (x, z) in self.solution.iter_mut().zip(z) {
+            *x -= along * z;
+        }
+    }
+
+    /// The offsets of the last solve as vectors, per node.
+    pub(super) fn displacements(&self, frames: &Frames, count: usize) -> Vec<DVec3> {
+        let mut moves = vec![DVec3::ZERO; count];
+        for (alpha, &node) in self.solution.chunks_exact(2).zip(&self.unknowns.nodes) {
+            let [one, other] = frames.axes[node as usize];
+            moves[node as usize] = one * alpha[0] + other * alpha[1];
+        }
+        moves
+    }
+
+    /// Fills the free entries of `field` from its fixed ones.
+    pub(super) fn carry(&mut self, chain: Chain, bends: &Bends, field: &mut [DVec3]) -> Solved<()> {
+        self.values.fill(0.0);
+        let free = self.unknowns.len();
+        let mut rhs = vec![0.0; 3 * free];
+        for node in 0..chain.count {
+            let Some(stencil) = Stencil::new(chain, bends, node) else { continue };
+            let blocks = stencil.weights.map(|weight| [[weight, 0.0], [0.0, 0.0]]);
+            self.add_products(&stencil.nodes, &blocks);
+            let known = stencil.nodes.iter().zip(stencil.weights);
+            let bend: DVec3 = known
+                .filter(|&(&node, _)| self.unknowns.index[node] == FIXED)
+                .map(|(&node, weight)| field[node] * weight)
+                .sum();
+            for (&node, weight) in stencil.nodes.iter().zip(stencil.weights) {
+                let index = self.unknowns.index[node];
+                if index != FIXED {
+                    for coordinate in 0..3 {
+                        rhs[coordinate * free + index as usize] -= weight * bend[coordinate];
+                    }
+                }
+            }
+        }
+        self.finish(|_| 0.0)?;
+        self.cholesky.solve(&mut rhs);
+        for (unknown, &node) in self.unknowns.nodes.iter().enumerate() {
+            field[node as usize] = DVec3::new(rhs[unknown], rhs[free + unknown], rhs[2 * free + unknown]);
+        }
+        Ok(())
+    }
+
+    /// Adds `rowsᵀ rows` of one stencil, whose rows act on each node through a 2 × 2 block.
+    fn add_products(&mut self, nodes: &[usize], blocks: &[[[f64; 2]; 2]]) {
+        for (&a, block_a) in nodes.iter().zip(blocks) {
+            for (&b, block_b) in nodes.iter().zip(blocks) {
+                let (a, b) = (self.unknowns.index[a], self.unknowns.index[b]);
+                if a == FIXED || b == FIXED {
+                    continue;
+                }
+                for i in 0..self.width {
+                    for j in 0..self.width {
+                        let (row, column) = (a as usize * self.width + i, b as usize * self.width + j);
+                        let product = block_a[0][i] * block_b[0][j] + block_a[1][i] * block_b[1][j];
+                        self.add(row, column, product);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Adds to the upper triangle; what lies below it comes a second time from above.
+    fn add(&mut self, row: usize, column: usize, value: f64) {
+        if row > column {
+            return;
+        }
+        let range = self.starts[column] as usize..self.starts[column + 1] as usize;
+        if let Some(place) = self.rows[range.clone()].iter().position(|&other| other as usize == row) {
+            self.values[range.start + place] += value;
+        }
+    }
+
+    /// Shifts the diagonal, adds the mass and factorises.
+    fn finish(&mut self, mass: impl Fn(usize) -> f64) -> Solved<()> {
+        for (scalar, &end) in self.starts[1..].iter().enumerate() {
+            // Rows are sorted, so the diagonal is the last of its column.
+            let value = &mut self.values[end as usize - 1];
+            *value = *value * (1.0 + DIAGONAL_SHIFT) + mass(self.unknowns.nodes[scalar / self.width] as usize);
+            if !(*value > 0.0) {
+                *value = 1.0;
+            }
+        }
+        self.cholesky.refactor(&self.values)
+    }
+}
+
+/// At the end of an open curve the one neighbour, twice.
+fn end_neighbour(chain: Chain, node: usize) -> Option<(usize, usize)> {
+    let other = if node > 0 { node - 1 } else { 1 };
+    (other < chain.count).then_some((other, other))
+}
+
+/// The 2 × 2 blocks of a stencil: transported neighbours, and the centre with its `κ κᵀ`.
+fn offset_blocks(bends: &Bends, frames: &Frames, stencil: &Stencil) -> [[[f64; 2]; 2]; 3] {
+    let [centre, before, after] = stencil.nodes;
+    let scaled = |from: usize, weight: f64| frames.relation(bends, from, centre).map(|row| row.map(|x| x * weight));
+    let kappa = frames.axes[centre].map(|axis| axis.dot(bends.curvatures[centre]));
+    let root = bends.nodes[centre].ds.sqrt();
+    let mut own = [[stencil.weights[0], 0.0], [0.0, stencil.weights[0]]];
+    for i in 0..2 {
+        for j in 0..2 {
+            own[i][j] += root * kappa[i] * kappa[j];
+        }
+    }
+    [own, scaled(before, stencil.weights[1]), scaled(after, stencil.weights[2])]
+}
