@@ -229,9 +229,7 @@ impl Toolbox {
     #[must_use]
     pub fn hint(&self) -> &'static str {
         match self.kind {
-            ToolKind::Shape => {
-                "Drag the surface, a curve or a point. A click selects; a double click on a point releases it."
-            }
+            ToolKind::Shape => "Drag the surface, a curve or a point. Double-click a point to release it.",
             ToolKind::Point => {
                 "Click where a control point should be: on a surface, on a curve, or in the work plane."
             }

@@ -37,6 +37,8 @@ fn listen_to_pointers(canvas: &Element) {
         let Some(button) = button(&event) else { return };
         // A lost capture is answered by pointercancel or by the next move without a button.
         let _ = target.set_pointer_capture(event.pointer_id());
+        // Who points sees where; the ring is for those who came by the keyboard.
+        dom::class(&target, "pointed", true);
         let pointer = pointer(&event);
         act(move |page| {
             page.hand.is_finger = pointer.device == Device::Touch;

@@ -3,10 +3,10 @@
 use super::page::{Page, act};
 use super::{dom, files};
 use crate::View;
-use crate::tool::{Selection, ToolKind};
+use crate::tool::{Selection, ToolKey, ToolKind};
 use ductile_spec::{Edit, Example, PointId, Request};
 use wasm_bindgen::JsCast;
-use web_sys::{Element, Event, HtmlDialogElement, HtmlElement, MouseEvent};
+use web_sys::{Element, Event, HtmlDialogElement, HtmlElement, KeyboardEvent, MouseEvent};
 
 /// Menus with the buttons that open them.
 const MENUS: [(&str, &str); 3] =
@@ -41,6 +41,16 @@ pub(crate) fn listen() {
                 place_below(&own, &button);
             }
         });
+        let own = menu.clone();
+        dom::listen(&menu, "keydown", move |event: KeyboardEvent| {
+            let step = match event.key().as_str() {
+                "ArrowDown" | "ArrowRight" => 1,
+                "ArrowUp" | "ArrowLeft" => -1,
+                _ => return,
+            };
+            event.prevent_default();
+            walk(&own, step);
+        });
     }
     list_examples();
 }
@@ -49,6 +59,23 @@ pub(crate) fn listen() {
 pub(crate) fn close_menus() {
     for (_, menu) in MENUS {
         let _ = dom::element(menu).hide_popover();
+    }
+}
+
+/// Moves the focus among the items of a menu, round and round.
+fn walk(menu: &HtmlElement, step: i32) {
+    let Ok(items) = menu.query_selector_all("button:not(:disabled)") else { return };
+    let count = i32::try_from(items.length()).unwrap_or(0);
+    let focused = dom::document().active_element();
+    let at = |index: i32| items.get(u32::try_from(index).unwrap_or(0));
+    let here = (0..count).find(|index| at(*index).as_ref() == focused.as_ref().map(AsRef::as_ref));
+    let next = match here {
+        Some(index) => (index + step).rem_euclid(count),
+        None if step > 0 => 0,
+        None => count - 1,
+    };
+    if let Some(item) = at(next).and_then(|item| item.dyn_into::<HtmlElement>().ok()) {
+        let _ = item.focus();
     }
 }
 
@@ -157,9 +184,14 @@ impl Page {
         self.refresh();
     }
 
-    /// Takes back the last act; in the middle of a drag, the drag.
+    /// Takes back the last act; in the middle of a drag, the drag; of a curve under way, its last point.
     pub(crate) fn undo(&mut self) {
-        if !self.abandon_drag() {
+        if self.abandon_drag() {
+            return;
+        }
+        if self.tools.is_under_way() {
+            self.tool_key(ToolKey::Back);
+        } else {
             self.request(Request::Undo);
         }
     }
@@ -247,7 +279,8 @@ fn close_dialogs() {
     }
 }
 
-/// Whether a dialog has the keyboard.
+/// Whether a dialog or a menu has the keyboard.
 pub(crate) fn dialog_is_open() -> bool {
-    ["keys", "link-dialog"].iter().any(|id| dom::element_as::<HtmlDialogElement>(id).open())
+    let menu_is_open = dom::document().query_selector(":popover-open").ok().flatten().is_some();
+    menu_is_open || ["keys", "link-dialog"].iter().any(|id| dom::element_as::<HtmlDialogElement>(id).open())
 }

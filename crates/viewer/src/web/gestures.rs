@@ -45,7 +45,7 @@ impl Page {
     pub(crate) fn pointer_down(&mut self, pointer: Pointer, button: Button) {
         self.hand.cursor = Some(pointer.at);
         self.hand.modifiers = pointer.modifiers;
-        let on_triad = self.settings.look.triad && self.camera.triad_hit(pointer.at).is_some();
+        let on_triad = self.shows_triad() && self.camera.triad_hit(pointer.at).is_some();
         let holds = self.tools.holds() && !on_triad && self.thing_at(pointer.at).is_some();
         let gestures = self.hand.recogniser.down(pointer, button, holds);
         self.run(gestures);
@@ -172,7 +172,7 @@ impl Page {
     }
 
     fn clicked(&mut self, at: Vec2, modifiers: Modifiers) {
-        if self.settings.look.triad
+        if self.shows_triad()
             && let Some(view) = self.camera.triad_hit(at)
         {
             let pose = self.camera.pose_from(view);
@@ -310,7 +310,7 @@ impl Page {
         if self.hand.recogniser.is_busy() || self.hand.is_finger {
             return;
         }
-        self.hand.hover_view = self.camera.triad_hit(at).filter(|_| self.settings.look.triad);
+        self.hand.hover_view = self.camera.triad_hit(at).filter(|_| self.shows_triad());
         if self.hand.hover_view.is_none() {
             self.hand.hover = self.thing_at(at);
         }

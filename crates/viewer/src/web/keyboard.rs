@@ -42,6 +42,9 @@ pub(crate) fn listen() {
         if (is_typing && !is_global) || (!key.on_canvas && is_local) {
             return;
         }
+        if key.name == "Tab" {
+            dom::class(&dom::element("view"), "pointed", false);
+        }
         if is_understood(&key) {
             event.prevent_default();
             if key.ctrl && key.name.eq_ignore_ascii_case("o") {
@@ -79,8 +82,12 @@ fn is_understood(key: &Key) -> bool {
     match name.as_str() {
         // Tab walks only where there is something to walk through and the canvas has the focus.
         "tab" => key.on_canvas && has_canvas_focus() && has_points(),
-        "f1" | "f3" | "f5" | "f6" | "f7" | "f11" | "f12" | "shift" | "control" | "meta" => false,
-        _ => true,
+        "escape" | "enter" | "backspace" | "delete" | " " | "home" | "." | "?" | "\\" | "h" => true,
+        "arrowleft" | "arrowright" | "arrowup" | "arrowdown" => true,
+        _ => {
+            let is_view = digit(&key.code).is_some_and(|digit| "01357".contains(digit));
+            is_view || ToolKind::of_key(&name).is_some() || Axis::of_key(&name).is_some()
+        }
     }
 }
 
@@ -188,7 +195,7 @@ impl Page {
         self.refresh();
     }
 
-    fn tool_key(&mut self, key: ToolKey) {
+    pub(crate) fn tool_key(&mut self, key: ToolKey) {
         let structure = &self.scene.structure;
         let next_point = self.document.next_point();
         let acts = self.tools.key(key, Surroundings { structure, next_point });

@@ -43,14 +43,18 @@ impl Notices {
         self.dismiss(key);
         let banner = dom::create_with("div", "banner", "");
         dom::append(&banner, [&dom::create_with("p", "", text)]);
-        for (label, command) in buttons {
-            dom::append(&banner, [&dom::command_button("button", label, command)]);
-        }
         let close = dom::command_button("icon-button", "", "dismiss");
         dom::attribute(&close, "data-banner", key);
         dom::attribute(&close, "aria-label", "Close");
         dom::append(&close, [&dom::icon("i-close")]);
         dom::append(&banner, [&close]);
+        if !buttons.is_empty() {
+            let deeds = dom::create_with("div", "deeds", "");
+            for (label, command) in buttons {
+                dom::append(&deeds, [&dom::command_button("button", label, command)]);
+            }
+            dom::append(&banner, [&deeds]);
+        }
         dom::append(&self.shelf, [&banner]);
         self.banners.push((key, text.to_owned(), banner));
     }

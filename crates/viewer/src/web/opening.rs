@@ -21,6 +21,7 @@ pub(crate) fn begin() {
     });
     match address() {
         Asked::Link(link) => act(move |page| {
+            page.panel.welcome_is_over = true;
             page.spare_journal(from_fragment(&link).ok().as_ref());
             page.request(Request::OpenLink { link });
         }),
@@ -66,12 +67,12 @@ impl Page {
         if document.is_some() && from_text(&own).ok().as_ref() != document {
             self.journal.take_new_identity();
         }
-        self.panel.welcome_is_over = true;
     }
 
     fn spec_came(&mut self, url: &str, fetched: Result<String, String>) {
         match fetched {
             Ok(text) => {
+                self.panel.welcome_is_over = true;
                 self.spare_journal(from_text(&text).ok().as_ref());
                 self.request(Request::OpenText { text });
             }

@@ -19,6 +19,8 @@ pub(crate) struct Panel {
     /// What the scene list shows: it is made anew only if this changes.
     listed: Option<(u32, Selection)>,
     pub(crate) welcome_is_over: bool,
+    /// The field whose text was refused, and what was selected then.
+    refused: Option<(&'static str, Selection)>,
     is_bare: bool,
     side: HtmlElement,
     welcome: HtmlElement,
@@ -33,6 +35,7 @@ impl Panel {
             figures_are_stale: true,
             listed: None,
             welcome_is_over: false,
+            refused: None,
             is_bare: false,
             side,
             welcome: dom::element("welcome"),
@@ -89,10 +92,9 @@ fn on_field(id: &'static str, typed: impl Fn(&mut Page, &str) -> Option<String> 
             let _ = own.blur();
         }
         "Escape" => {
-            own.set_value("");
             let field = own.clone();
             act(move |page| {
-                page.fill_field(&field);
+                page.fill_field(&field, true);
                 page.show_field_error(id, None);
                 let _ = field.blur();
             });
@@ -208,7 +210,7 @@ impl Page {
         if dom::document().title() != title {
             dom::document().set_title(&title);
         }
-        self.fill_field(&dom::element_as("name"));
+        self.fill_field(&dom::element_as("name"), false);
     }
 
     fn show_scene(&mut self) {
@@ -248,7 +250,12 @@ impl Page {
         }
     }
 
-    fn show_properties(&self) {
+    fn show_properties(&mut self) {
+        if let Some((id, selection)) = self.panel.refused
+            && selection != self.selection
+        {
+            self.show_field_error(id, None);
+        }
         let structure = &self.scene.structure;
         let title = match self.selection {
             Selection::None => "Document".to_owned(),
@@ -313,17 +320,20 @@ impl Page {
 
     fn show_fields(&self) {
         for id in COORDINATES.into_iter().chain(["spacing"]) {
-            self.fill_field(&dom::element_as(id));
+            self.fill_field(&dom::element_as(id), false);
         }
     }
 
     /// Writes the present value into a field, unless the designer is typing in it.
-    fn fill_field(&self, field: &HtmlInputElement) {
+    fn fill_field(&self, field: &HtmlInputElement, even_focused: bool) {
         let focused = dom::document().active_element();
-        if focused.as_ref() == Some(field.unchecked_ref::<Element>()) && !field.value().is_empty() {
+        if !even_focused && focused.as_ref() == Some(field.unchecked_ref::<Element>()) {
             return;
         }
         let id = field.id();
+        if !even_focused && self.panel.refused.is_some_and(|(refused, _)| refused == id) {
+            return;
+        }
         let value = match (id.as_str(), self.selection) {
             ("name", _) => self.document.name.clone(),
             ("spacing", _) => self.document.spacing.map(number::show).unwrap_or_default(),
@@ -375,7 +385,8 @@ impl Page {
         None
     }
 
-    fn show_field_error(&mut self, id: &str, error: Option<&str>) {
+    fn show_field_error(&mut self, id: &'static str, error: Option<&str>) {
+        self.panel.refused = error.map(|_| (id, self.selection));
         let line = dom::element("number-error");
         dom::text(&line, error.unwrap_or_default());
         dom::show(&line, error.is_some());

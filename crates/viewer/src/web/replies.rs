@@ -38,7 +38,7 @@ impl Page {
             };
             let text =
                 format!("The solver stopped and was started again. {lost}; undo begins anew from here.");
-            self.notices.banner("worker", &text, &[]);
+            self.notices.banner_for("worker", &text, 20_000);
             self.start_worker();
         } else {
             let text = format!(
@@ -142,6 +142,8 @@ impl Page {
             self.hand.forget();
         }
         if *answered == Answered::Opening {
+            self.resetting = false;
+            self.reopening = false;
             let text = format!("{} The model on the screen is as it was.", sentence(&refusal.reason));
             self.notices.banner("opening", &text, &[]);
             if self.committed.is_none() {

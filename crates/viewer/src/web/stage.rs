@@ -7,7 +7,7 @@ use super::dom;
 use super::page::{MOST_RETRIES, Page, RETRY_MILLISECONDS, act};
 use crate::limit::Limit;
 use crate::tool::{Selection, ToolKind, ghost_line, work_plane};
-use crate::{GpuError, Highlight, Hit, Renderer};
+use crate::{GpuError, Highlight, Hit, Look, Renderer};
 use glam::Vec3;
 use wasm_bindgen::closure::Closure;
 use wasm_bindgen::{JsCast, JsValue};
@@ -15,6 +15,8 @@ use web_sys::{Event, HtmlCanvasElement};
 
 /// A canvas larger than this is drawn coarser.
 const MOST_PIXELS: f64 = 16.0e6;
+/// Up to this width in CSS pixels the tools lie at the bottom edge (style.css says the same).
+const NARROW: f32 = 640.0;
 /// Pause before a device is asked for again, and before a canvas that was not ready is tried again.
 const PAUSE: i32 = 250;
 
@@ -229,6 +231,7 @@ impl Page {
 
     fn draw(&mut self) {
         let highlight = self.highlight();
+        let look = Look { triad: self.shows_triad(), ..self.settings.look };
         let Some(renderer) = &mut self.stage.renderer else { return };
         if std::mem::take(&mut self.stage.structure_is_new) {
             renderer.upload_structure(&self.scene);
@@ -237,13 +240,18 @@ impl Page {
         if self.scene.has_frame() && std::mem::take(&mut self.stage.frame_is_new) {
             renderer.upload_frame(&self.scene);
         }
-        match renderer.draw(&self.camera, &self.settings.look, &highlight) {
+        match renderer.draw(&self.camera, &look, &highlight) {
             Ok(()) => self.stage.pictures += 1,
             Err(GpuError::NotReady) => {
                 dom::after(PAUSE, || act(|page| page.redraw()));
             }
             Err(error) => self.device_lost(&error.to_string()),
         }
+    }
+
+    /// Whether the axes are shown: on a narrow screen the tools need their place.
+    pub(crate) fn shows_triad(&self) -> bool {
+        self.settings.look.triad && self.camera.viewport().x > NARROW
     }
 
     /// What the pointer and the tools mark.
