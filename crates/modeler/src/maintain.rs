@@ -116,9 +116,9 @@ pub(crate) fn smooth(shape: &mut Arc<SurfaceShape>, bound: &mut BoundSurface) ->
     moved
 }
 
-/// Refines a skeleton to the spacing.
-pub(crate) fn refine(shape: &mut SurfaceShape) {
-    let mut sizing = Sizing::Uniform(shape.spacing);
+/// Refines a skeleton to a multiple of the spacing.
+pub(crate) fn refine(shape: &mut SurfaceShape, coarseness: usize) {
+    let mut sizing = Sizing::Uniform(shape.spacing * coarseness as f64);
     let limits = Limits { most_vertices: NODE_BUDGET, growth: 1.0, ..Limits::default() };
     for _ in 0..REFINEMENTS {
         let edits = remesh::improve(

@@ -8,7 +8,7 @@ use crate::maintain::{self, FEWEST_EDGES};
 use crate::model::NODE_BUDGET;
 use crate::shape::{CurveShape, EmbeddedCurve, Pin, SurfaceShape};
 use ductile_mesh::{Mesh, SourceTag, VertexId, measure, propagate_orientation};
-use ductile_spec::{CurveId, Document, PointId, Skeleton, SkeletonVertex, SurfaceId};
+use ductile_spec::{CurveId, Document, Embedding, PointId, Skeleton, SkeletonVertex, SurfaceId};
 use glam::DVec3;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -145,7 +145,6 @@ pub(crate) fn build_surface(
             shape.pins.push(Pin { vertex: vertex_id, point: *point });
         }
     }
-    maintain::refine(&mut shape);
     BoundSurface::new(id, &shape)?;
     Ok(shape)
 }
@@ -162,46 +161,88 @@ fn check_budget(spacing: f64, nodes: f64, limit: usize) -> Result<(), ModelError
     Err(ModelError::TooFine { spacing, nodes: nodes as usize, limit })
 }
 
-/// Splits the skeleton's edges at the samples of its curves and marks them.
+/// A control curve on its way into a mesh: the samples that have a vertex already, in order.
+struct Path {
+    curve: CurveId,
+    placed: Vec<(usize, VertexId)>,
+}
+
+/// Cuts the skeleton's edges at the samples of its curves, from coarse to fine, and refines the inside along
+/// with it. All samples at once would make fans of needles that no flip can mend.
 fn embed_curves(
     shape: &mut SurfaceShape,
     skeleton: &Skeleton,
     curves: &BTreeMap<CurveId, Arc<CurveShape>>,
 ) -> Result<(), ModelError> {
+    let mut paths = Vec::with_capacity(skeleton.curves.len());
     for embedding in &skeleton.curves {
         let curve = curves.get(&embedding.curve).ok_or(ModelError::NoCurve(embedding.curve))?;
-        let mut vertices = vec![None; curve.nodes.len()];
-        for (chain, (first, count)) in chains(skeleton, &embedding.along).iter().zip(curve.stretches()) {
-            // Path vertex j of the chain takes the sample at its share of the stretch.
-            let sample = |j: usize| j * count / (chain.len() - 1);
-            for j in 0..chain.len() - 1 {
-                let mut from = VertexId::from_index(chain[j] as usize);
-                let to = VertexId::from_index(chain[j + 1] as usize);
-                if let Some(edge) = shape.mesh.edge_between(from, to) {
-                    shape.mesh.set_edge_source(edge, Some(SourceTag(embedding.curve.0)));
-                }
-                for k in sample(j)..sample(j + 1) {
-                    let index = (first + k) % curve.nodes.len();
-                    if k > sample(j) {
-                        let Some(edge) = shape.mesh.edge_between(from, to) else { break };
-                        from = shape.mesh.split_edge(edge);
-                        shape.positions.resize(shape.mesh.vertex_slots(), DVec3::ZERO);
-                    }
-                    shape.positions[from.index()] = curve.nodes[index];
-                    vertices[index] = Some(from);
-                }
+        paths.push(lay_path(shape, skeleton, curve, embedding));
+    }
+    let longest = |path: &Path| path.placed.windows(2).map(|w| w[1].0 - w[0].0).max().unwrap_or(1);
+    let mut stride = paths.iter().map(longest).max().unwrap_or(1).next_power_of_two();
+    while stride >= 1 {
+        for path in &mut paths {
+            if let Some(curve) = curves.get(&path.curve) {
+                cut_path(shape, curve, path, stride);
             }
         }
-        if !curve.closed
-            && let (Some(last), Some(slot)) = (embedding.along.last(), vertices.last_mut())
-        {
-            *slot = Some(VertexId::from_index(*last as usize));
-        }
-        let vertices: Option<Vec<VertexId>> = vertices.into_iter().collect();
-        let vertices = vertices.ok_or_else(|| ModelError::NoExtent(embedding.curve.to_string()))?;
-        shape.embeddings.push(EmbeddedCurve { curve: embedding.curve, vertices });
+        maintain::refine(shape, stride);
+        stride /= 2;
+    }
+    for path in paths {
+        let closed = curves.get(&path.curve).is_some_and(|curve| curve.closed);
+        let open_end = usize::from(closed);
+        let vertices =
+            path.placed[..path.placed.len() - open_end].iter().map(|(_, v)| *v).collect::<Vec<_>>();
+        shape.embeddings.push(EmbeddedCurve { curve: path.curve, vertices });
     }
     Ok(())
+}
+
+/// Marks the skeleton's edges on a curve and gives each of their ends a sample. A closed path ends with its
+/// first vertex again, one turn later.
+fn lay_path(
+    shape: &mut SurfaceShape,
+    skeleton: &Skeleton,
+    curve: &CurveShape,
+    embedding: &Embedding,
+) -> Path {
+    let mut placed = Vec::new();
+    let mut end = None;
+    for (chain, (first, count)) in chains(skeleton, &embedding.along).iter().zip(curve.stretches()) {
+        let vertex = |j: usize| VertexId::from_index(chain[j] as usize);
+        for j in 0..chain.len() - 1 {
+            if let Some(edge) = shape.mesh.edge_between(vertex(j), vertex(j + 1)) {
+                shape.mesh.set_edge_source(edge, Some(SourceTag(embedding.curve.0)));
+            }
+            // Path vertex j of the chain takes the sample at its share of the stretch.
+            let sample = first + j * count / (chain.len() - 1);
+            shape.positions[vertex(j).index()] = curve.nodes[sample % curve.nodes.len()];
+            placed.push((sample, vertex(j)));
+        }
+        end = Some((first + count, vertex(chain.len() - 1)));
+    }
+    placed.extend(end);
+    Path { curve: embedding.curve, placed }
+}
+
+/// Halves every gap of a path that spans more than `stride` samples.
+fn cut_path(shape: &mut SurfaceShape, curve: &CurveShape, path: &mut Path, stride: usize) {
+    let mut k = 0;
+    while k + 1 < path.placed.len() {
+        let ((low, from), (high, to)) = (path.placed[k], path.placed[k + 1]);
+        let edge = shape.mesh.edge_between(from, to);
+        let (true, Some(edge)) = (high - low > stride, edge) else {
+            k += 1;
+            continue;
+        };
+        let sample = low.midpoint(high);
+        let vertex = shape.mesh.split_edge(edge);
+        shape.positions.resize(shape.mesh.vertex_slots(), DVec3::ZERO);
+        shape.positions[vertex.index()] = curve.nodes[sample % curve.nodes.len()];
+        path.placed.insert(k + 1, (sample, vertex));
+    }
 }
 
 /// The path of a curve in a skeleton, cut at its control points: one chain of vertices for each stretch.
