@@ -80,19 +80,14 @@ export async function started(page, { timeout = 60_000 } = {}) {
   await untilInspect(page, (state) => state !== null, { timeout });
 }
 
-/**
- * What the program says of itself, or null while it is not running. The loader has imported the same address, so this
- * is the running program and not a second one.
- */
+/** What the program says of itself, or null while it is not running yet. */
 export function inspect(page) {
-  return page.evaluate(async () => {
-    try {
-      const program = await import(new URL("viewer.js", document.baseURI).href);
-      return JSON.parse(program.inspect());
-    } catch {
-      return null;
-    }
-  });
+  return page.evaluate(() => JSON.parse(window.wasmBindings?.inspect() || "null"));
+}
+
+/** Brings trouble about: `lose-device`, `kill-worker`, `hang-worker` or `worker-panic`. */
+export function provoke(page, what) {
+  return page.evaluate((word) => window.wasmBindings.provoke(word), what);
 }
 
 /**
