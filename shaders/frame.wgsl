@@ -10,7 +10,7 @@ struct Frame {
     key: vec4f,
     // xyz: unit vector toward the fill light; w: strength.
     fill: vec4f,
-    // Linear colours of the light from above and from below.
+    // Linear colours of the light from above and from below; w of sky: what the rim catches of it.
     sky: vec4f,
     ground: vec4f,
     // Linear colours of the two sides of a surface.

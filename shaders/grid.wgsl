@@ -11,7 +11,14 @@ fn grid_vertex(@builtin(vertex_index) corner: u32) -> Ground {
     let side = vec2f(vec2u(corner & 1u, corner >> 1u)) * 2.0 - 1.0;
     let place = frame.plane_centre.xy + side * frame.plane_v.w;
     let at = frame.plane_origin.xyz + frame.plane_u.xyz * place.x + frame.plane_v.xyz * place.y;
-    return Ground(frame.clip_from_world * vec4f(at, 1.0), place, at);
+    var clip = frame.clip_from_world * vec4f(at, 1.0);
+    // A little farther away than it is, so that a surface in the plane hides it.
+    if is_perspective() {
+        clip.z *= 0.998;
+    } else {
+        clip.z -= 3e-5 * clip.w;
+    }
+    return Ground(clip, place, at);
 }
 
 // How much of a pixel the lines of a distance cover; nothing where they crowd.

@@ -35,7 +35,9 @@ fn surface_vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) su
     let a = vector(6u * indices[first]);
     let b = vector(6u * indices[first + 1u]);
     let c = vector(6u * indices[first + 2u]);
-    let flat_normal = cross(b - a, c - a);
+    // Scaled first, so that the square of a small edge does not vanish.
+    let scale = 1.0 / max(max(length(b - a), length(c - a)), 1e-18);
+    let flat_normal = cross((b - a) * scale, (c - a) * scale);
     let own = 6u * indices[index];
     let at = vector(own);
     let normal = vector(own + 3u);
@@ -61,21 +63,22 @@ fn lit(albedo: vec3f, n: vec3f, to_eye: vec3f) -> vec3f {
     let shine = max(dot(n, half_way), 0.0);
     light += vec3f(1.0, 0.98, 0.95) * frame.key.w * (0.16 * pow(shine, 56.0) + 0.05 * pow(shine, 10.0));
     let rim = pow(1.0 - facing, 4.0);
-    light += frame.sky.rgb * (0.55 * rim * (0.6 + 0.4 * n.z));
-    return light;
+    light += frame.sky.rgb * (frame.sky.w * rim * (0.6 + 0.4 * n.z));
+    return max(light, vec3f(0.0));
 }
 
 @fragment
 fn surface_fragment(in: Facet) -> @location(0) vec4f {
     let style = styles[in.style];
     let to_eye = toward_eye(in.at);
-    let is_front = dot(in.flat_normal, to_eye) >= 0.0;
+    let tilt = dot(in.flat_normal, to_eye);
     var n = normalize(in.normal);
-    n = select(-n, n, is_front);
+    n = select(-n, n, tilt >= 0.0);
     // Near the outline the smooth normal may point away although the triangle is seen: bend it back.
     n = normalize(n - to_eye * min(dot(n, to_eye) - 0.02, 0.0));
-    let is_back = !is_front && style.sides.x > 0.5;
-    let albedo = select(frame.front.rgb, frame.back.rgb, is_back);
+    // The slivers of back that rounding lets through at the outline are not told apart.
+    let back = style.sides.x * smoothstep(0.05, 0.2, -tilt / max(length(in.flat_normal), 1e-30));
+    let albedo = mix(frame.front.rgb, frame.back.rgb, back);
     var colour = encoded(softened(lit(albedo, n, to_eye)));
     colour = mix(colour, style.tint.rgb, style.tint.a);
 

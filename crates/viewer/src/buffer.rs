@@ -23,7 +23,12 @@ impl GrowingBuffer {
     }
 
     /// Writes from the start; true if the buffer had to be replaced, and must be bound anew.
-    pub(crate) fn write<T: bytemuck::NoUninit>(&mut self, device: &Device, queue: &Queue, data: &[T]) -> bool {
+    pub(crate) fn write<T: bytemuck::NoUninit>(
+        &mut self,
+        device: &Device,
+        queue: &Queue,
+        data: &[T],
+    ) -> bool {
         let bytes: &[u8] = bytemuck::cast_slice(data);
         let size = bytes.len() as u64;
         let grows = size > self.buffer.size();

@@ -434,7 +434,10 @@ impl Camera {
         let aside = self.aside(cursor);
         if self.orthographic {
             let behind = self.forward() * (self.pose.distance - self.depth_range());
-            return Ray { origin: self.eye() + aside * self.pose.distance + behind, direction: self.forward() };
+            return Ray {
+                origin: self.eye() + aside * self.pose.distance + behind,
+                direction: self.forward(),
+            };
         }
         Ray { origin: self.eye(), direction: (self.forward() + aside).normalize() }
     }

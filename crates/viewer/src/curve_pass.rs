@@ -32,10 +32,7 @@ impl CurvePass {
             meets: Meets::Hidden,
             ..visible
         };
-        Self {
-            visible: workshop.pipeline(&shader, &visible),
-            hidden: workshop.pipeline(&shader, &hidden),
-        }
+        Self { visible: workshop.pipeline(&shader, &visible), hidden: workshop.pipeline(&shader, &hidden) }
     }
 
     pub(crate) fn draw(

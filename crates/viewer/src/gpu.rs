@@ -87,10 +87,8 @@ impl Renderer {
         };
         let adapter = instance.request_adapter(&options).await.map_err(|_| GpuError::NoWebGpu)?;
         let descriptor = DeviceDescriptor { label: Some("ductile"), ..DeviceDescriptor::default() };
-        let (device, queue) = adapter
-            .request_device(&descriptor)
-            .await
-            .map_err(|e| GpuError::NoDevice(e.to_string()))?;
+        let (device, queue) =
+            adapter.request_device(&descriptor).await.map_err(|e| GpuError::NoDevice(e.to_string()))?;
         let teller = loss.teller();
         device.set_device_lost_callback(move |_, reason| teller.tell(reason));
         let format = display_format(&surface, &adapter);
@@ -205,5 +203,6 @@ fn display_format(surface: &Surface<'_>, adapter: &Adapter) -> TextureFormat {
 fn is_software(adapter: &Adapter) -> bool {
     let info = adapter.get_info();
     let name = info.name.to_ascii_lowercase();
-    info.device_type == DeviceType::Cpu || ["swiftshader", "llvmpipe", "lavapipe"].iter().any(|n| name.contains(n))
+    info.device_type == DeviceType::Cpu
+        || ["swiftshader", "llvmpipe", "lavapipe"].iter().any(|n| name.contains(n))
 }

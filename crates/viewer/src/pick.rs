@@ -120,7 +120,11 @@ impl Aim<'_> {
         let candidates = points.filter_map(|(entry, at)| {
             let distance_px = self.camera.project(at)?.distance(self.cursor);
             let hit = Hit::Point { id: entry.id, at };
-            (distance_px <= self.reach_px).then(|| Candidate { distance_px, depth: self.camera.depth(at), hit })
+            (distance_px <= self.reach_px).then(|| Candidate {
+                distance_px,
+                depth: self.camera.depth(at),
+                hit,
+            })
         });
         self.first_visible(candidates.collect())
     }
@@ -187,8 +191,7 @@ impl Aim<'_> {
     fn surface(&self) -> Option<Hit> {
         let ray = self.camera.ray(self.cursor);
         let mut best: Option<(Meeting, SurfaceId, usize)> = None;
-        for (span, triangles, ball) in self.scene.surfaces().filter(|(_, _, ball)| ball.is_met(&ray)) {
-            let _ = ball;
+        for (span, triangles, _) in self.scene.surfaces().filter(|(.., ball)| ball.is_met(&ray)) {
             for (number, t) in triangles.chunks_exact(3).enumerate() {
                 let [a, b, c] = corners(self.scene, t);
                 let Some(meeting) = meets(&ray, a, b, c) else { continue };
@@ -199,7 +202,12 @@ impl Aim<'_> {
         }
         let (meeting, id, triangle) = best?;
         let normal = self.normal(triangle, meeting.weights, ray.direction);
-        Some(Hit::Surface { id, at: ray.at(meeting.distance), normal, triangle: u32::try_from(triangle).ok()? })
+        Some(Hit::Surface {
+            id,
+            at: ray.at(meeting.distance),
+            normal,
+            triangle: u32::try_from(triangle).ok()?,
+        })
     }
 
     /// The smooth normal in a triangle, toward the eye. The normals of its corners may point to different

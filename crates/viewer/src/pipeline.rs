@@ -53,12 +53,7 @@ impl Layouts {
     }
 
     /// Binds numbers, elements and styles.
-    pub(crate) fn pull(
-        &self,
-        device: &Device,
-        label: &str,
-        parts: [&GrowingBuffer; 3],
-    ) -> BindGroup {
+    pub(crate) fn pull(&self, device: &Device, label: &str, parts: [&GrowingBuffer; 3]) -> BindGroup {
         let [numbers, elements, styles] = parts;
         device.create_bind_group(&BindGroupDescriptor {
             label: Some(label),
@@ -99,8 +94,10 @@ pub(crate) struct Recipe<'a> {
 
 impl Workshop<'_> {
     pub(crate) fn shader(&self, label: &str, source: &'static str) -> ShaderModule {
-        self.device
-            .create_shader_module(ShaderModuleDescriptor { label: Some(label), source: ShaderSource::Wgsl(source.into()) })
+        self.device.create_shader_module(ShaderModuleDescriptor {
+            label: Some(label),
+            source: ShaderSource::Wgsl(source.into()),
+        })
     }
 
     fn layout(&self, recipe: &Recipe<'_>) -> PipelineLayout {
@@ -146,7 +143,11 @@ impl Workshop<'_> {
                 module: shader,
                 entry_point: Some(recipe.fragment),
                 compilation_options: PipelineCompilationOptions::default(),
-                targets: &[Some(ColorTargetState { format: self.format, blend, write_mask: ColorWrites::ALL })],
+                targets: &[Some(ColorTargetState {
+                    format: self.format,
+                    blend,
+                    write_mask: ColorWrites::ALL,
+                })],
             }),
             multiview_mask: None,
             cache: None,

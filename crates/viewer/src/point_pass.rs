@@ -31,13 +31,16 @@ impl PointPass {
             meets: Meets::Hidden,
             ..visible
         };
-        Self {
-            visible: workshop.pipeline(&shader, &visible),
-            hidden: workshop.pipeline(&shader, &hidden),
-        }
+        Self { visible: workshop.pipeline(&shader, &visible), hidden: workshop.pipeline(&shader, &hidden) }
     }
 
-    pub(crate) fn draw(&self, pass: &mut RenderPass<'_>, group: &BindGroup, dots: Range<u32>, is_hidden: bool) {
+    pub(crate) fn draw(
+        &self,
+        pass: &mut RenderPass<'_>,
+        group: &BindGroup,
+        dots: Range<u32>,
+        is_hidden: bool,
+    ) {
         if dots.is_empty() {
             return;
         }

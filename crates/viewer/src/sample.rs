@@ -10,7 +10,7 @@ use std::f32::consts::{PI, TAU};
 
 /// A scene in the making.
 #[derive(Default)]
-pub struct Sketch {
+pub(crate) struct Sketch {
     structure: Structure,
     indices: Vec<u32>,
     vertices: Vec<f32>,
@@ -28,7 +28,7 @@ fn part(i: u32, n: u32) -> f32 {
 
 impl Sketch {
     /// Adds a surface by its vertices and triangles; the normals are made from the triangles.
-    pub fn surface(mut self, places: &[Vec3], triangles: &[[u32; 3]], orientable: bool) -> Self {
+    pub(crate) fn surface(mut self, places: &[Vec3], triangles: &[[u32; 3]], orientable: bool) -> Self {
         let first_vertex = count(self.vertices.len() / 6);
         let mut normals = vec![Vec3::ZERO; places.len()];
         for &[a, b, c] in triangles {
@@ -56,7 +56,7 @@ impl Sketch {
     }
 
     /// Adds an image of the unit square, of `2 n²` triangles.
-    pub fn grid(self, n: u32, place: impl Fn(f32, f32) -> Vec3, orientable: bool) -> Self {
+    pub(crate) fn grid(self, n: u32, place: impl Fn(f32, f32) -> Vec3, orientable: bool) -> Self {
         let mut places = Vec::new();
         let mut triangles = Vec::new();
         for j in 0..=n {
@@ -73,12 +73,12 @@ impl Sketch {
     }
 
     /// Adds a curve that no surface follows.
-    pub fn curve(self, samples: &[Vec3], closed: bool) -> Self {
+    pub(crate) fn curve(self, samples: &[Vec3], closed: bool) -> Self {
         self.curve_with_role(samples, closed, CurveRole::Free)
     }
 
     /// Adds a curve.
-    pub fn curve_with_role(mut self, samples: &[Vec3], closed: bool, role: CurveRole) -> Self {
+    pub(crate) fn curve_with_role(mut self, samples: &[Vec3], closed: bool, role: CurveRole) -> Self {
         self.structure.curves.push(CurveSpan {
             id: CurveId(count(self.structure.curves.len()) + 1),
             first: count(self.samples.len() / 3),
@@ -91,7 +91,7 @@ impl Sketch {
     }
 
     /// Adds a control point.
-    pub fn point(mut self, at: Vec3) -> Self {
+    pub(crate) fn point(mut self, at: Vec3) -> Self {
         let id = PointId(count(self.structure.points.len()) + 1);
         self.structure.points.push(PointEntry { id, role: PointRole::Free });
         self.points.extend(at.to_array());
@@ -99,12 +99,12 @@ impl Sketch {
     }
 
     /// Adds several control points.
-    pub fn points(self, places: &[Vec3]) -> Self {
+    pub(crate) fn points(self, places: &[Vec3]) -> Self {
         places.iter().fold(self, |sketch, at| sketch.point(*at))
     }
 
     /// The scene, checked.
-    pub fn finish(mut self) -> Scene {
+    pub(crate) fn finish(mut self) -> Scene {
         self.structure.version = 1;
         let mut scene = Scene::default();
         scene.set_structure(self.structure, self.indices).unwrap();
@@ -115,7 +115,7 @@ impl Sketch {
 }
 
 /// Header and numbers of a scene, to be spoilt.
-pub fn frame_of(scene: &Scene) -> (FrameHeader, Vec<f32>) {
+pub(crate) fn frame_of(scene: &Scene) -> (FrameHeader, Vec<f32>) {
     (scene.header.clone(), scene.floats.clone())
 }
 
@@ -127,12 +127,12 @@ fn bump(x: f32, y: f32) -> f32 {
 }
 
 /// A disc with bumps, a boundary, an inner curve and points: about `6 rings²` triangles.
-pub fn bumpy_disc(rings: u32) -> Scene {
+pub(crate) fn bumpy_disc(rings: u32) -> Scene {
     sketch_bumpy_disc(rings).finish()
 }
 
 /// The sketch of [`bumpy_disc`].
-pub fn sketch_bumpy_disc(rings: u32) -> Sketch {
+pub(crate) fn sketch_bumpy_disc(rings: u32) -> Sketch {
     let at = |x: f32, y: f32| Vec3::new(x, y, bump(x, y));
     let on_ring = |i: u32, k: u32| {
         let (s, c) = (TAU * part(k % (6 * i).max(1), (6 * i).max(1))).sin_cos();
@@ -174,12 +174,12 @@ pub fn sketch_bumpy_disc(rings: u32) -> Sketch {
 }
 
 /// A Möbius strip with its boundary, windings broken at one seam.
-pub fn moebius(around: u32, across: u32) -> Scene {
+pub(crate) fn moebius(around: u32, across: u32) -> Scene {
     sketch_moebius(Sketch::default(), around, across, Vec3::ZERO).finish()
 }
 
 /// Adds a Möbius strip to a sketch.
-pub fn sketch_moebius(sketch: Sketch, around: u32, across: u32, centre: Vec3) -> Sketch {
+pub(crate) fn sketch_moebius(sketch: Sketch, around: u32, across: u32, centre: Vec3) -> Sketch {
     let place = |u: f32, v: f32| {
         let (s, c) = (TAU * u).sin_cos();
         let (hs, hc) = (PI * u).sin_cos();

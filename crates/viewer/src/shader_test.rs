@@ -10,7 +10,8 @@ use naga::{Module, TypeInner};
 use std::mem::offset_of;
 
 fn module(source: &str) -> Module {
-    let module = naga::front::wgsl::parse_str(source).unwrap_or_else(|e| panic!("{}", e.emit_to_string(source)));
+    let module =
+        naga::front::wgsl::parse_str(source).unwrap_or_else(|e| panic!("{}", e.emit_to_string(source)));
     Validator::new(ValidationFlags::all(), Capabilities::empty())
         .validate(&module)
         .unwrap_or_else(|e| panic!("{}", e.emit_to_string(source)));
@@ -57,8 +58,27 @@ fn structures_are_mirrored() {
     assert_mirrors!(
         SURFACE_SHADER,
         Frame {
-            clip_from_world, eye, forward, key, fill, sky, ground, front, back, wire, top, bottom, grid,
-            axis_u, axis_v, plane_origin, plane_u, plane_v, plane_centre, viewport, options
+            clip_from_world,
+            eye,
+            forward,
+            key,
+            fill,
+            sky,
+            ground,
+            front,
+            back,
+            wire,
+            top,
+            bottom,
+            grid,
+            axis_u,
+            axis_v,
+            plane_origin,
+            plane_u,
+            plane_v,
+            plane_centre,
+            viewport,
+            options
         }
     );
     assert_mirrors!(CURVE_SHADER, Style { fill, outline, half_width, outline_width, hidden, flags });

@@ -148,8 +148,8 @@ fn add_ring(marks: &mut Marks, camera: &Camera, at: Vec3, normal: Vec3, theme: &
     let ring = Style {
         fill: theme.accent,
         outline: theme.halo.with_w(0.6),
-        half_width: 0.9,
-        outline_width: 0.9,
+        half_width: 1.0,
+        outline_width: 1.0,
         hidden: 0.3,
         flags: 0,
     };
@@ -190,7 +190,7 @@ mod tests {
         let mut segments = Vec::new();
         Skeleton::default().take_structure(&scene, &mut segments);
         let [boundary, inner] = [scene.structure.curves[0], scene.structure.curves[1]];
-        assert_eq!(segments.len() as u32, boundary.count + inner.count - 1);
+        assert_eq!(length(&segments), boundary.count + inner.count - 1);
         let at = segments[0].start as usize;
         let first = scene.samples(boundary.id).next().unwrap();
         assert_eq!(Vec3::from_slice(&scene.floats[at..at + 3]), first);
@@ -216,8 +216,7 @@ mod tests {
     fn the_ring_lies_in_the_tangent_plane() {
         let (mut marks, camera) = (Marks::default(), Camera::default());
         let normal = Vec3::new(1.0, 2.0, 2.0) / 3.0;
-        let hit =
-            Hit::Surface { id: ductile_spec::SurfaceId(1), at: Vec3::splat(0.1), normal, triangle: 0 };
+        let hit = Hit::Surface { id: ductile_spec::SurfaceId(1), at: Vec3::splat(0.1), normal, triangle: 0 };
         let highlight = Highlight { hover: Some(hit), ..Highlight::default() };
         add_highlight(&mut marks, &camera, &highlight, &Theme::new(false));
         assert_eq!(marks.segments.len(), usize::from(RING_CORNERS));

@@ -15,7 +15,8 @@ pub(crate) struct Theme {
     /// Matter of the two sides of a surface, linear.
     pub(crate) front: Vec4,
     pub(crate) back: Vec4,
-    /// Light from above and below, linear.
+    /// Light from above and below, linear; `w` of the sky: how much the rim catches of it. On light ground
+    /// the rim is dark, so that the outline stands out.
     pub(crate) sky: Vec4,
     pub(crate) ground: Vec4,
     /// Strength of the key and the fill light.
@@ -44,14 +45,14 @@ impl Theme {
         Self {
             top: display(0xf1_f3_f5, 1.0),
             bottom: display(0xd3_d9_df, 1.0),
-            front: linear(0xc9_cd_d3),
-            back: linear(0xb9_a0_8c),
-            sky: Vec4::new(0.44, 0.48, 0.55, 0.0),
-            ground: Vec4::new(0.23, 0.21, 0.20, 0.0),
-            key: 0.86,
-            fill: 0.16,
+            front: linear(0xa3_ab_b6),
+            back: linear(0xa8_90_7c),
+            sky: Vec4::new(0.36, 0.41, 0.49, -0.10),
+            ground: Vec4::new(0.19, 0.17, 0.165, 0.0),
+            key: 1.08,
+            fill: 0.18,
             wire: display(0x20_2a_36, 0.30),
-            grid: display(0x4a_55_62, 0.30),
+            grid: display(0x4a_55_62, 0.24),
             curve: display(0x00_6b_c2, 1.0),
             boundary: display(0xd5_5e_00, 1.0),
             point: display(0xf0_9a_00, 1.0),
@@ -66,9 +67,9 @@ impl Theme {
         Self {
             top: display(0x2f_34_3c, 1.0),
             bottom: display(0x17_19_1d, 1.0),
-            front: linear(0xa4_ab_b5),
-            back: linear(0x94_7b_69),
-            sky: Vec4::new(0.22, 0.26, 0.33, 0.0),
+            front: linear(0xa0_a8_b3),
+            back: linear(0x90_76_63),
+            sky: Vec4::new(0.20, 0.245, 0.32, 0.60),
             ground: Vec4::new(0.075, 0.07, 0.075, 0.0),
             key: 0.98,
             fill: 0.14,

@@ -63,7 +63,8 @@ pub(crate) fn add_triad(marks: &mut Marks, camera: &Camera, theme: &Theme, ratio
     for ((at, nearness), view, axis, is_positive) in ends {
         let colour = toned(theme, axis, nearness);
         let fill = if is_positive { colour } else { colour.lerp(theme.top, 0.6) };
-        let (outline, outline_width) = if hover == Some(view) { (theme.selected, 2.0) } else { (colour, 1.25) };
+        let (outline, outline_width) =
+            if hover == Some(view) { (theme.selected, 2.0) } else { (colour, 1.25) };
         let flags = ON_SCREEN | if is_positive { (letter(axis)) << 8 } else { 0 };
         let radius = RADII[usize::from(!is_positive)] - 1.25;
         marks.add_dot(
