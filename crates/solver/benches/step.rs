@@ -19,7 +19,8 @@ mod native {
         };
         let sphere = |name, levels| {
             let (solver, positions) = workload::pulled_sphere(levels, 0.2).unwrap();
-            let top = solver.fixed().iter().zip(&positions).position(|(fixed, p)| *fixed && p.z > 1.1).unwrap();
+            let top =
+                solver.fixed().iter().zip(&positions).position(|(fixed, p)| *fixed && p.z > 1.1).unwrap();
             (name, solver, positions, u32::try_from(top).unwrap())
         };
         vec![

@@ -81,7 +81,10 @@ pub(crate) struct Assembly {
 }
 
 impl Assembly {
-    #[expect(clippy::cast_possible_truncation, reason = "pairs are fewer than 325 per node, checked when rings are made")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "pairs are fewer than 325 per node, checked when rings are made"
+    )]
     pub(crate) fn new(rings: &Rings, unknowns: &Unknowns) -> Self {
         let mut starts = vec![0_u32];
         for node in 0..rings.len() {
@@ -115,7 +118,8 @@ impl Assembly {
                     let column = unknowns.index[far as usize];
                     if column < row {
                         let (high, low) = (mine.max(other), mine.min(other));
-                        places[starts[centre] as usize + high * (high + 1) / 2 + low] = place_of[column as usize];
+                        places[starts[centre] as usize + high * (high + 1) / 2 + low] =
+                            place_of[column as usize];
                     }
                 }
             });
@@ -219,7 +223,10 @@ fn neighbourhood_of(rings: &Rings, node: usize) -> impl Iterator<Item = u32> + C
 fn for_star<'a>(
     rings: &'a Rings,
     node: u32,
-    mut visit: impl FnMut(usize, std::iter::Chain<std::iter::Once<u32>, std::iter::Copied<std::slice::Iter<'a, u32>>>),
+    mut visit: impl FnMut(
+        usize,
+        std::iter::Chain<std::iter::Once<u32>, std::iter::Copied<std::slice::Iter<'a, u32>>>,
+    ),
 ) {
     for centre in neighbourhood_of(rings, node as usize) {
         let list = std::iter::once(centre).chain(rings.ring(centre as usize).iter().copied());

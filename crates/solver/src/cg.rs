@@ -121,7 +121,8 @@ mod tests {
         let b: Vec<f64> = (0..20).map(|i| f64::from(i * i % 7) - 3.0).collect();
         let mut x = vec![0.0; 20];
         let limit = Limit { iterations: 20, tolerance: 1e-12 };
-        let outcome = solve(chain, <[f64]>::clone_from_slice_into, &b, &mut x, limit, &mut Workspace::default());
+        let outcome =
+            solve(chain, <[f64]>::clone_from_slice_into, &b, &mut x, limit, &mut Workspace::default());
         assert!(outcome.residual < 1e-10, "{outcome:?}");
         let mut y = vec![0.0; 20];
         chain(&x, &mut y);

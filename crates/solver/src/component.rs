@@ -67,7 +67,8 @@ impl Components {
             low[part as usize] = low[part as usize].min(position);
             high[part as usize] = high[part as usize].max(position);
         }
-        let radius: Vec<f64> = low.iter().zip(&high).map(|(&low, &high)| 0.5 * (high - low).length()).collect();
+        let radius: Vec<f64> =
+            low.iter().zip(&high).map(|(&low, &high)| 0.5 * (high - low).length()).collect();
         for ((&part, &position), _) in self.of.iter().zip(positions).zip(fixed).filter(|(_, fixed)| **fixed) {
             spans[part as usize].add(position, radius[part as usize]);
         }

@@ -169,7 +169,8 @@ impl CurveSolver {
             self.fields.carry(self.chain, &self.bends, &mut field)?;
         }
         let strain = self.strain(&field);
-        let fraction = if strain > self.settings.strain_limit { self.settings.strain_limit / strain } else { 1.0 };
+        let fraction =
+            if strain > self.settings.strain_limit { self.settings.strain_limit / strain } else { 1.0 };
         for (position, &displacement) in positions.iter_mut().zip(&field) {
             *position += displacement * fraction;
         }
@@ -189,7 +190,8 @@ impl CurveSolver {
         self.bends.gradient(self.chain, &mut self.gradient);
         self.frames.transport(self.chain, &self.bends);
         let radius = half_diagonal(positions);
-        let mu = self.damping * if self.is_loose() { self.settings.loose_damping } else { self.settings.damping };
+        let mu =
+            self.damping * if self.is_loose() { self.settings.loose_damping } else { self.settings.damping };
         let mass = if radius > 0.0 { mu / (radius * radius * radius * radius) } else { 0.0 };
         let solved = self.offsets.newton(self.chain, &self.bends, &self.frames, &self.gradient, mass);
         let Ok(slope) = solved else {
@@ -250,7 +252,8 @@ impl CurveSolver {
 
     /// Length of the polygon through the fixed nodes.
     fn polygon(&self, positions: &[DVec3]) -> f64 {
-        let mut fixed = positions.iter().zip(&self.fixed).filter(|(_, fixed)| **fixed).map(|(position, _)| *position);
+        let mut fixed =
+            positions.iter().zip(&self.fixed).filter(|(_, fixed)| **fixed).map(|(position, _)| *position);
         let Some(first) = fixed.next() else { return 0.0 };
         let (mut length, mut last) = (0.0, first);
         for position in fixed {
@@ -272,7 +275,8 @@ impl CurveSolver {
         let mut scale = self.first_scale(&moves);
         self.quiet_steps = if -slope < REST_DECREASE * energy { self.quiet_steps + 1 } else { 0 };
         for halvings in 0..=MAX_HALVINGS {
-            for ((trial, &position), &offset) in self.trial_positions.iter_mut().zip(&*positions).zip(&moves) {
+            for ((trial, &position), &offset) in self.trial_positions.iter_mut().zip(&*positions).zip(&moves)
+            {
                 *trial = position + offset * scale;
             }
             self.trial.measure(self.chain, &self.trial_positions, self.bends.price);

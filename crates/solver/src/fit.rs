@@ -93,7 +93,8 @@ impl NodeFit {
 
     /// The fitted quadratic at normalised coordinates, relative to the node; `linear` scales the first-order part.
     pub(crate) fn evaluate(&self, u: f64, v: f64, linear: f64) -> DVec3 {
-        let second = self.d[2] * (0.5 * u * u) + self.d[3] * (u * v * FRAC_1_SQRT_2) + self.d[4] * (0.5 * v * v);
+        let second =
+            self.d[2] * (0.5 * u * u) + self.d[3] * (u * v * FRAC_1_SQRT_2) + self.d[4] * (0.5 * v * v);
         (self.d[0] * u + self.d[1] * v) * linear + second
     }
 }
@@ -213,7 +214,12 @@ fn derive(fit: &mut NodeFit) {
 
 /// `M = SᵀS` and `Sᵀe`.
 #[inline]
-pub(crate) fn moments(chords: &[DVec3], is_boundary: bool, spokes: &[Spoke], h: f64) -> (Matrix5, [DVec3; 5]) {
+pub(crate) fn moments(
+    chords: &[DVec3],
+    is_boundary: bool,
+    spokes: &[Spoke],
+    h: f64,
+) -> (Matrix5, [DVec3; 5]) {
     let mut m = ZERO5;
     let mut b = [DVec3::ZERO; 5];
     for (chord, spoke) in chords.iter().zip(spokes) {

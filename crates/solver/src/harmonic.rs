@@ -8,7 +8,7 @@ use glam::DVec3;
 use crate::cg::{self, Limit, Workspace};
 use crate::component::Components;
 use crate::error::{SolverError, check_length, check_positions};
-use crate::laplacian::{Laplacian, Weights};
+use crate::laplacian::{Acting, Laplacian, Weights};
 use crate::operator::{FIXED, Unknowns};
 use crate::rings::Rings;
 
@@ -51,10 +51,12 @@ pub fn fill(
     let looseness = components.looseness(positions, fixed);
     let is_free = |node: usize| !fixed[node] && looseness.of(&components, node).has_fixed;
     let unknowns = Unknowns::new((0..rings.len()).map(is_free));
-    let mut laplacian = Laplacian::new(rings, &unknowns)?;
-    laplacian.refresh(positions, weights, |_| 0.0)?;
+    let mut laplacian = Laplacian::new(rings, &unknowns, Acting::OnField)?;
+    laplacian.refresh(positions, weights, |_, _| 0.0)?;
     let inverse_mass = match weights {
-        Weights::Uniform => (0..rings.len()).map(|node| f64::from(u8::from(!rings.is_boundary(node)))).collect(),
+        Weights::Uniform => {
+            (0..rings.len()).map(|node| f64::from(u8::from(!rings.is_boundary(node)))).collect()
+        }
         Weights::Cotangent => inverse_masses(rings, positions),
     };
     let mut results = [Vec::new(), Vec::new(), Vec::new()];
@@ -64,7 +66,11 @@ pub fn fill(
         laplacian.add_fixed(rings, &unknowns, &known, result);
         laplacian.solve(result);
         if fill == Fill::Plate {
-            Plate { rings, unknowns: &unknowns, inverse_mass: &inverse_mass }.solve(&mut laplacian, &known, result);
+            Plate { rings, unknowns: &unknowns, inverse_mass: &inverse_mass }.solve(
+                &mut laplacian,
+                &known,
+                result,
+            );
         }
     }
     for (unknown, &node) in unknowns.nodes.iter().enumerate() {
@@ -162,7 +168,8 @@ mod tests {
         for kind in [Fill::Membrane, Fill::Plate] {
             let mut positions = disc.positions.clone();
             fill(&rings, &disc.fixed, &mut positions, Weights::Cotangent, kind).unwrap();
-            let worst = positions.iter().zip(&disc.positions).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
+            let worst =
+                positions.iter().zip(&disc.positions).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
             assert!(worst < 1e-9, "{kind:?}: {worst}");
         }
     }

@@ -2,7 +2,8 @@
 //!
 //! Sign: positive definite, `(L x)_i = Σ_j w_ij (x_i - x_j)` with `w` = half the sum of the cotangents of the two
 //! opposite angles (Pinkall, Polthier 1993), floored at 1e-3 (recipe, section 6) so that it stays an M-matrix on any
-//! mesh, and capped so that a needle cannot blow up the factor.
+//! mesh, and capped so that a needle cannot blow up the factor. Acting on offsets along normals it reads
+//! `Σ_j w_ij (x_i - s_ij x_j)` with the senses of the spokes, the same thing wherever all rings turn one way.
 
 use glam::DVec3;
 
@@ -23,6 +24,15 @@ pub enum Weights {
     Cotangent,
 }
 
+/// What the Laplacian acts on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Acting {
+    /// Offsets along the normals of their own nodes.
+    OnOffsets,
+    /// A scalar field.
+    OnField,
+}
+
 /// The Laplacian with a fixed pattern and its factor.
 #[derive(Clone, Debug)]
 pub(crate) struct Laplacian {
@@ -41,11 +51,12 @@ pub(crate) struct Laplacian {
 struct Edge {
     unknowns: [u32; 2],
     place: u32,
+    sense: f64,
 }
 
 impl Laplacian {
     #[expect(clippy::cast_possible_truncation, reason = "spokes and nodes are counted by u32")]
-    pub(crate) fn new(rings: &Rings, unknowns: &Unknowns) -> Result<Self, FactorError> {
+    pub(crate) fn new(rings: &Rings, unknowns: &Unknowns, acting: Acting) -> Result<Self, FactorError> {
         let mut edge_of_slot = vec![FIXED; rings.spokes()];
         let mut columns: Vec<Vec<(u32, u32)>> = vec![Vec::new(); unknowns.len()];
         let mut edges = Vec::new();
@@ -56,7 +67,8 @@ impl Laplacian {
             if pair[1] != FIXED {
                 columns[pair[1] as usize].push((pair[0], edges.len() as u32));
             }
-            edges.push(Edge { unknowns: pair, place: FIXED });
+            let sense = if acting == Acting::OnOffsets { rings.sense(slot) } else { 1.0 };
+            edges.push(Edge { unknowns: pair, place: FIXED, sense });
         }
         let (mut starts, mut rows, mut diagonal) = (vec![0], Vec::new(), Vec::new());
         for (column, entries) in columns.iter_mut().enumerate() {
@@ -79,12 +91,12 @@ impl Laplacian {
         })
     }
 
-    /// Refreshes the numbers. `shift` is added to the diagonal, per unknown.
+    /// Refreshes the numbers. `shift` of an unknown and its diagonal is added to the latter.
     pub(crate) fn refresh(
         &mut self,
         positions: &[DVec3],
         weights: Weights,
-        shift: impl Fn(usize) -> f64,
+        shift: impl Fn(usize, f64) -> f64,
     ) -> Result<(), FactorError> {
         match weights {
             Weights::Uniform => self.weights.fill(1.0),
@@ -96,12 +108,12 @@ impl Laplacian {
                 self.values[self.diagonal[unknown as usize] as usize] += weight;
             }
             if edge.place != FIXED {
-                self.values[edge.place as usize] = -weight;
+                self.values[edge.place as usize] = -weight * edge.sense;
             }
         }
         for (unknown, &place) in self.diagonal.iter().enumerate() {
             let value = &mut self.values[place as usize];
-            *value += shift(unknown);
+            *value += shift(unknown, *value);
             // A free node without edges: any positive number keeps the factor alive.
             if !(*value > 0.0) {
                 *value = 1.0;

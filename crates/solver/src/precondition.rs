@@ -6,7 +6,7 @@
 
 use crate::factor::FactorError;
 use crate::fit::Fits;
-use crate::laplacian::{Laplacian, Weights};
+use crate::laplacian::{Acting, Laplacian, Weights};
 use crate::operator::Unknowns;
 use crate::rings::Rings;
 
@@ -28,8 +28,8 @@ pub(crate) struct Preconditioner {
 }
 
 impl Preconditioner {
-    pub(crate) fn new(rings: &Rings, unknowns: &Unknowns) -> Result<Self, FactorError> {
-        let laplacian = Laplacian::new(rings, unknowns)?;
+    pub(crate) fn new(rings: &Rings, unknowns: &Unknowns, acting: Acting) -> Result<Self, FactorError> {
+        let laplacian = Laplacian::new(rings, unknowns, acting)?;
         Ok(Self { laplacian, mass: Vec::new(), lengths: Vec::new(), served_badly: false })
     }
 
@@ -38,12 +38,16 @@ impl Preconditioner {
         &mut self,
         fits: &Fits,
         unknowns: &Unknowns,
-        shift: impl Fn(usize) -> f64,
+        shift: impl Fn(usize, f64) -> f64,
     ) -> Result<(), FactorError> {
         let limit = if self.served_badly { WORTH_STRETCH } else { STALE_STRETCH };
         let is_fresh = self.lengths.len() == fits.spokes.len()
             && !self.lengths.is_empty()
-            && fits.spokes.iter().zip(&self.lengths).all(|(spoke, &old)| (spoke.r - old).abs() <= limit * old);
+            && fits
+                .spokes
+                .iter()
+                .zip(&self.lengths)
+                .all(|(spoke, &old)| (spoke.r - old).abs() <= limit * old);
         if is_fresh {
             return Ok(());
         }

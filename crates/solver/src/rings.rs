@@ -279,7 +279,8 @@ fn take_next(link: &[[u32; 2]], used: &mut u32, from: u32) -> Option<u32> {
 
 /// Compares the rings at both ends of every spoke over a triangle they share.
 fn senses(offsets: &[u32], neighbours: &[u32], is_boundary: &[bool]) -> Result<Vec<f64>, RingError> {
-    let ring_of = |node: u32| &neighbours[offsets[node as usize] as usize..offsets[node as usize + 1] as usize];
+    let ring_of =
+        |node: u32| &neighbours[offsets[node as usize] as usize..offsets[node as usize + 1] as usize];
     let mut senses = Vec::with_capacity(neighbours.len());
     for node in 0..compact(is_boundary.len())? {
         let ring = ring_of(node);
@@ -295,12 +296,16 @@ fn senses(offsets: &[u32], neighbours: &[u32], is_boundary: &[bool]) -> Result<V
             let third = if left == far { right } else { left };
             let follows = |a: u32, b: u32| {
                 let other = ring_of(far);
-                let wraps = !is_boundary[far as usize] && other.last() == Some(&a) && other.first() == Some(&b);
+                let wraps =
+                    !is_boundary[far as usize] && other.last() == Some(&a) && other.first() == Some(&b);
                 wraps || other.windows(2).any(|pair| pair == [a, b])
             };
             // Same sense: around `far`, the triangle (node, left, right) is crossed right -> node or node -> left.
-            let (same, opposite) =
-                if left == far { (follows(third, node), follows(node, third)) } else { (follows(node, third), follows(third, node)) };
+            let (same, opposite) = if left == far {
+                (follows(third, node), follows(node, third))
+            } else {
+                (follows(node, third), follows(third, node))
+            };
             match (same, opposite) {
                 (true, false) => senses.push(1.0),
                 (false, true) => senses.push(-1.0),
@@ -313,4 +318,77 @@ fn senses(offsets: &[u32], neighbours: &[u32], is_boundary: &[bool]) -> Result<V
 
 fn compact(count: usize) -> Result<u32, RingError> {
     u32::try_from(count).map_err(|_| RingError::TooMany)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::workload;
+
+    #[test]
+    fn interior_ring_runs_counter_clockwise() {
+        let disc = workload::disc(2);
+        let rings = Rings::from_triangles(disc.positions.len(), &disc.triangles).unwrap();
+        assert!(!rings.is_boundary(0));
+        let ring = rings.ring(0);
+        for (place, &far) in ring.iter().enumerate() {
+            let next = ring[(place + 1) % ring.len()];
+            let (a, b) = (disc.positions[far as usize], disc.positions[next as usize]);
+            assert!(a.cross(b).z > 0.0);
+        }
+        assert!((0..rings.spokes()).all(|slot| rings.sense(slot) == 1.0));
+    }
+
+    #[test]
+    fn boundary_ring_starts_and_ends_on_the_boundary() {
+        let disc = workload::disc(3);
+        let rings = Rings::from_triangles(disc.positions.len(), &disc.triangles).unwrap();
+        for node in (0..rings.len()).filter(|&node| rings.is_boundary(node)) {
+            let ring = rings.ring(node);
+            assert!(rings.is_boundary(ring[0] as usize) && rings.is_boundary(ring[ring.len() - 1] as usize));
+        }
+    }
+
+    #[test]
+    fn moebius_strip_has_senses_of_both_kinds_whose_product_is_fixed() {
+        let strip = workload::moebius(12, 2, 0.3);
+        let rings = Rings::from_triangles(strip.positions.len(), &strip.triangles).unwrap();
+        assert!((0..rings.spokes()).any(|slot| rings.sense(slot) < 0.0));
+        // Once around the core the senses multiply to -1, however the rings are turned.
+        let around = |rings: &Rings| -> f64 {
+            let core = |i: usize| (i % 12) * 3 + 1;
+            let sense = |i: usize| {
+                let far = u32::try_from(core(i + 1)).unwrap();
+                let place = rings.ring(core(i)).iter().position(|&other| other == far).unwrap();
+                rings.senses(core(i))[place]
+            };
+            (0..12).map(sense).product()
+        };
+        assert_eq!(around(&rings), -1.0);
+        let reversed: Vec<bool> = (0..rings.len()).map(|node| node % 3 == 1).collect();
+        assert_eq!(around(&rings.with_reversed(&reversed)), -1.0);
+    }
+
+    #[test]
+    fn parts_that_came_from_triangles_are_taken_back() {
+        let strip = workload::moebius(9, 2, 0.3);
+        let rings = Rings::from_triangles(strip.positions.len(), &strip.triangles).unwrap();
+        assert_eq!(rings, rings.with_reversed(&vec![false; rings.len()]));
+    }
+
+    #[test]
+    fn broken_meshes_are_refused() {
+        let from = Rings::from_triangles;
+        assert_eq!(from(2, &[[0, 1, 2]]), Err(RingError::UnknownNode(2)));
+        assert_eq!(from(3, &[[0, 1, 1]]), Err(RingError::DegenerateTriangle(0)));
+        // Three triangles on one edge; two fans on one node; the same triangle twice.
+        assert!(matches!(from(5, &[[0, 1, 2], [0, 1, 3], [0, 1, 4]]), Err(RingError::NotManifold(_))));
+        assert_eq!(from(5, &[[0, 1, 2], [0, 3, 4]]), Err(RingError::NotManifold(0)));
+        assert!(matches!(from(3, &[[0, 1, 2], [0, 2, 1]]), Err(RingError::NotManifold(_))));
+        let fan: Vec<[u32; 3]> = (1..26).map(|i| [0, i, i % 25 + 1]).collect();
+        assert_eq!(from(26, &fan), Err(RingError::RingTooLarge(0)));
+        let parts = Rings::from_parts(vec![0, 2, 4, 6], vec![1, 2, 2, 0, 0, 0], vec![true; 3], vec![]);
+        assert!(matches!(parts, Err(RingError::Contradiction(..))));
+        assert!(Rings::from_parts(vec![0, 9], vec![], vec![true], vec![]).is_err());
+    }
 }

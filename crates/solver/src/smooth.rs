@@ -64,7 +64,13 @@ pub(crate) fn smooth(
 }
 
 /// Area centroid of the fan in normalised coordinates, triangles weighed by `area / h*²` if lengths are given.
-fn centroid(rings: &Rings, node: usize, fit: &NodeFit, spokes: &[Spoke], lengths: Option<&[f64]>) -> (f64, f64) {
+fn centroid(
+    rings: &Rings,
+    node: usize,
+    fit: &NodeFit,
+    spokes: &[Spoke],
+    lengths: Option<&[f64]>,
+) -> (f64, f64) {
     let ring = rings.ring(node);
     let h = fit.frame.h;
     let (mut sum_u, mut sum_v, mut sum) = (0.0, 0.0, 0.0);

@@ -20,8 +20,10 @@ use crate::assembly::{Assembly, Rows};
 use crate::cg::{self, Limit, Workspace};
 use crate::component::{Components, Looseness};
 use crate::error::{Budget, Settings, SolverError, check_finite, check_length, check_positions};
+use crate::factor::FactorError;
 use crate::fit::{Curvature, Fits};
 use crate::gradient::gradient;
+use crate::laplacian::Acting;
 use crate::line_search;
 use crate::operator::Unknowns;
 use crate::precondition::Preconditioner;
@@ -81,6 +83,8 @@ pub struct SurfaceSolver {
     unknowns: Unknowns,
     assembly: Assembly,
     preconditioner: Preconditioner,
+    /// For scalar fields, where that is something else than for offsets: on rings of mixed senses.
+    field_preconditioner: Option<Preconditioner>,
     predictor: Predictor,
     fits: Fits,
     trial: Fits,
@@ -104,7 +108,8 @@ impl SurfaceSolver {
         Ok(Self {
             components: Components::new(&rings),
             assembly: Assembly::new(&rings, &unknowns),
-            preconditioner: Preconditioner::new(&rings, &unknowns)?,
+            preconditioner: Preconditioner::new(&rings, &unknowns, Acting::OnOffsets)?,
+            field_preconditioner: field_preconditioner(&rings, &unknowns)?,
             predictor: Predictor::default(),
             fits: Fits::new(&rings),
             trial: Fits::new(&rings),
@@ -138,7 +143,8 @@ impl SurfaceSolver {
         check_length(self.rings.len(), fixed.len())?;
         if fixed != self.fixed {
             let unknowns = unknowns(&self.rings, &fixed);
-            self.preconditioner = Preconditioner::new(&self.rings, &unknowns)?;
+            self.preconditioner = Preconditioner::new(&self.rings, &unknowns, Acting::OnOffsets)?;
+            self.field_preconditioner = field_preconditioner(&self.rings, &unknowns)?;
             self.assembly = Assembly::new(&self.rings, &unknowns);
             self.predictor.reset();
             self.unknowns = unknowns;
@@ -175,16 +181,17 @@ impl SurfaceSolver {
             fits: &self.fits,
             unknowns: &self.unknowns,
             assembly: &self.assembly,
-            preconditioner: &mut self.preconditioner,
+            preconditioner: self.field_preconditioner.as_mut().unwrap_or(&mut self.preconditioner),
             limit,
         };
         let (field, outcome) = self.predictor.displacements(parts, &moves);
         let strain = predictor::strain(&self.rings, &self.fits, &self.unknowns, field);
-        let fraction = if strain > self.settings.strain_limit { self.settings.strain_limit / strain } else { 1.0 };
+        let fraction =
+            if strain > self.settings.strain_limit { self.settings.strain_limit / strain } else { 1.0 };
         for (position, &displacement) in positions.iter_mut().zip(field) {
             *position += displacement * fraction;
         }
-        self.preconditioner.served(outcome.iterations);
+        self.served(outcome.iterations);
         self.quiet_steps = 0;
         Ok(Predicted { fraction, strain, iterations: outcome.iterations, residual: outcome.residual })
     }
@@ -212,7 +219,7 @@ impl SurfaceSolver {
             Limit { iterations: budget.iterations, tolerance: self.settings.step_tolerance },
             &mut self.workspace,
         );
-        self.preconditioner.served(outcome.iterations);
+        self.served(outcome.iterations);
         let mut report = StepReport {
             energy_before: self.fits.energy,
             energy: self.fits.energy,
@@ -308,23 +315,36 @@ impl SurfaceSolver {
     fn slopes(&mut self) {
         gradient(&self.rings, &self.fits, &mut self.gradient);
         self.rhs.clear();
-        let slope = |&node: &u32| -0.5 * self.gradient[node as usize].dot(self.fits.nodes[node as usize].normal);
+        let slope =
+            |&node: &u32| -0.5 * self.gradient[node as usize].dot(self.fits.nodes[node as usize].normal);
         self.rhs.extend(self.unknowns.nodes.iter().map(slope));
     }
 
+    /// Brings the preconditioners up to date, both at once, so that their ages never depend on the senses.
     fn prepare(&mut self) -> Result<(), SolverError> {
         let (fits, unknowns, components) = (&self.fits, &self.unknowns, &self.components);
         let (looseness, settings) = (components.looseness(&fits.positions, &self.fixed), &self.settings);
-        self.preconditioner.prepare(fits, unknowns, |unknown| {
+        let shift = |unknown: usize, diagonal: f64| {
             let node = unknowns.nodes[unknown] as usize;
             if looseness.of(components, node).has_fixed {
                 return 0.0;
             }
             // (Lc + sqrt(mu) Ma/R²) Ma⁻¹ (Lc + ...) then stands for the damped plate on constants too.
             let mass = mass(fits, components, &looseness, settings, node);
-            (mass * fits.nodes[node].area).sqrt()
-        })?;
+            let shift = (mass * fits.nodes[node].area).sqrt();
+            shift.max(1e-9 * diagonal)
+        };
+        for preconditioner in self.field_preconditioner.iter_mut().chain([&mut self.preconditioner]) {
+            preconditioner.prepare(fits, unknowns, shift)?;
+        }
         Ok(())
+    }
+
+    /// Tells the preconditioners how many iterations a solve took.
+    fn served(&mut self, iterations: u32) {
+        for preconditioner in self.field_preconditioner.iter_mut().chain([&mut self.preconditioner]) {
+            preconditioner.served(iterations);
+        }
     }
 
     /// Line search along the direction, acceptance, rest.
@@ -350,7 +370,8 @@ impl SurfaceSolver {
         report.halvings = found.halvings;
         report.step_scale = found.scale;
         report.predicted_decrease = -slope * found.scale;
-        self.quiet_steps = if -slope < REST_DECREASE * energy && is_converged { self.quiet_steps + 1 } else { 0 };
+        self.quiet_steps =
+            if -slope < REST_DECREASE * energy && is_converged { self.quiet_steps + 1 } else { 0 };
         if !found.is_accepted {
             self.damping = (self.damping * DAMPING_RAISE).min(DAMPING_MAX);
             report.damped = true;
@@ -402,13 +423,28 @@ impl SurfaceSolver {
 }
 
 /// `mu a / Rm⁴` of one node.
-fn mass(fits: &Fits, components: &Components, looseness: &Looseness, settings: &Settings, node: usize) -> f64 {
+fn mass(
+    fits: &Fits,
+    components: &Components,
+    looseness: &Looseness,
+    settings: &Settings,
+    node: usize,
+) -> f64 {
     let part = looseness.of(components, node);
     let mu = if part.is_loose { settings.loose_damping } else { settings.damping };
     let squared = part.radius * part.radius;
     if squared > 0.0 { mu * fits.nodes[node].area / (squared * squared) } else { 0.0 }
 }
 
+/// Rings of mixed senses need a second preconditioner for scalar fields.
+fn field_preconditioner(rings: &Rings, unknowns: &Unknowns) -> Result<Option<Preconditioner>, FactorError> {
+    let is_mixed = (0..rings.spokes()).any(|slot| rings.sense(slot) < 0.0);
+    is_mixed.then(|| Preconditioner::new(rings, unknowns, Acting::OnField)).transpose()
+}
+
 fn unknowns(rings: &Rings, fixed: &[bool]) -> Unknowns {
     Unknowns::new(fixed.iter().enumerate().map(|(node, &fixed)| !fixed && !rings.ring(node).is_empty()))
 }
+
+#[cfg(test)]
+mod tests;

@@ -105,11 +105,13 @@ pub fn sphere(levels: u32) -> Workload {
         [7, 1, 8], [3, 9, 4], [3, 4, 2], [3, 2, 6], [3, 6, 8], [3, 8, 9], [4, 9, 5], [2, 4, 11], [6, 2, 10],
         [8, 6, 7], [9, 8, 1],
     ];
-    for _ in 0..levels {
-        triangles = subdivide(&mut positions, &triangles);
-    }
-    for position in &mut positions {
-        *position = position.try_normalize().unwrap_or(DVec3::Z);
+    for level in 0..=levels {
+        if level > 0 {
+            triangles = subdivide(&mut positions, &triangles);
+        }
+        for position in &mut positions {
+            *position = position.try_normalize().unwrap_or(DVec3::Z);
+        }
     }
     let fixed = vec![false; positions.len()];
     Workload { positions, triangles, fixed }

@@ -88,7 +88,8 @@ struct GradientNode {
 #[test]
 fn exact_gradient_and_its_identities() {
     let file: GradientFile = fixture!("variational-gradient");
-    let (mut solver, positions) = solver(&file.vertices, &file.triangles, vec![false; file.vertices.len()], Settings::default());
+    let (mut solver, positions) =
+        solver(&file.vertices, &file.triangles, vec![false; file.vertices.len()], Settings::default());
     solver.fit_all(&positions);
     assert!((solver.energy() / file.energy - 1.0).abs() < 1e-8);
     let gradient = solver.gradient().to_vec();

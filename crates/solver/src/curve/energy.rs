@@ -116,7 +116,8 @@ impl Bends {
                 bend.jacobian = velocity.length();
                 self.tangents[node] = velocity.try_normalize().unwrap_or(bend.ahead);
                 self.curvatures[node] = (bend.ahead - bend.behind) * (2.0 / sum);
-                energy += 2.0 * (bend.ahead - bend.behind).length_squared() / sum + barrier::value(bend.jacobian);
+                energy +=
+                    2.0 * (bend.ahead - bend.behind).length_squared() / sum + barrier::value(bend.jacobian);
             } else {
                 self.curvatures[node] = DVec3::ZERO;
             }

@@ -64,7 +64,11 @@ pub fn resample(
         result.push(positions[first], fixed[first], u32::try_from(first).ok());
         let wanted = (spans.length(span) / spacing).round();
         let wanted = if wanted >= 1.0 { wanted.min(MAX_EDGES) } else { 1.0 };
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 1 and MAX_EDGES")]
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "between 1 and MAX_EDGES"
+        )]
         let edges = (wanted as usize).max(least_edges).max(1);
         for point in spans.points(span, edges) {
             result.push(point, false, None);

@@ -112,7 +112,9 @@ impl System {
             let column = unknowns.index[node as usize];
             for inner in 0..width as u32 {
                 let scalar = column * width as u32 + inner;
-                let entries = columns.iter().flat_map(|&other| (0..width as u32).map(move |i| other * width as u32 + i));
+                let entries = columns
+                    .iter()
+                    .flat_map(|&other| (0..width as u32).map(move |i| other * width as u32 + i));
                 rows.extend(entries.filter(|&row| row <= scalar));
                 starts.push(rows.len() as u32);
             }
@@ -179,7 +181,8 @@ impl System {
         let c = self.project(frames, &gradient, 1.0);
         let mut z = c.clone();
         self.cholesky.solve(&mut z);
-        let along = stiffness * crate::cg::dot(&c, &self.solution) / (1.0 + stiffness * crate::cg::dot(&c, &z));
+        let along =
+            stiffness * crate::cg::dot(&c, &self.solution) / (1.0 + stiffness * crate::cg::dot(&c, &z));
         for (x, z) in self.solution.iter_mut().zip(z) {
             *x -= along * z;
         }
@@ -261,7 +264,8 @@ impl System {
         for (scalar, &end) in self.starts[1..].iter().enumerate() {
             // Rows are sorted, so the diagonal is the last of its column.
             let value = &mut self.values[end as usize - 1];
-            *value = *value * (1.0 + DIAGONAL_SHIFT) + mass(self.unknowns.nodes[scalar / self.width] as usize);
+            *value =
+                *value * (1.0 + DIAGONAL_SHIFT) + mass(self.unknowns.nodes[scalar / self.width] as usize);
             if !(*value > 0.0) {
                 *value = 1.0;
             }
@@ -279,7 +283,8 @@ fn end_neighbour(chain: Chain, node: usize) -> Option<(usize, usize)> {
 /// The 2 × 2 blocks of a stencil: transported neighbours, and the centre with its `κ κᵀ`.
 fn offset_blocks(bends: &Bends, frames: &Frames, stencil: &Stencil) -> [[[f64; 2]; 2]; 3] {
     let [centre, before, after] = stencil.nodes;
-    let scaled = |from: usize, weight: f64| frames.relation(bends, from, centre).map(|row| row.map(|x| x * weight));
+    let scaled =
+        |from: usize, weight: f64| frames.relation(bends, from, centre).map(|row| row.map(|x| x * weight));
     let kappa = frames.axes[centre].map(|axis| axis.dot(bends.curvatures[centre]));
     let root = bends.nodes[centre].ds.sqrt();
     let mut own = [[stencil.weights[0], 0.0], [0.0, stencil.weights[0]]];

@@ -88,7 +88,12 @@ fn zigzag_between_two_points_becomes_straight() {
     let wave = |i: usize| if i == 0 || i == count - 1 { 0.0 } else { 0.3 * (i % 2) as f64 };
     let mut positions: Vec<DVec3> = (0..count).map(|i| DVec3::new(i as f64, wave(i), wave(i))).collect();
     let reports = relax(&mut solver, &mut positions, 60);
-    assert!(reports.last().unwrap().at_rest && solver.energy() < 1e-6, "{} {}", reports.len(), solver.energy());
+    assert!(
+        reports.last().unwrap().at_rest && solver.energy() < 1e-6,
+        "{} {}",
+        reports.len(),
+        solver.energy()
+    );
     assert!(positions.iter().all(|p| p.y.abs() < 1e-2 && p.z.abs() < 1e-2));
 }
 
@@ -145,7 +150,8 @@ fn loose_closed_curve_keeps_its_size() {
 fn short_and_degenerate_curves_are_harmless() {
     for count in 0..4 {
         for closed in [false, true] {
-            let mut solver = CurveSolver::new(count, closed, vec![false; count], CurveSettings::default()).unwrap();
+            let mut solver =
+                CurveSolver::new(count, closed, vec![false; count], CurveSettings::default()).unwrap();
             let mut positions = vec![DVec3::ONE; count];
             for _ in 0..3 {
                 solver.step(&mut positions).unwrap();
