@@ -9,6 +9,9 @@ use ductile_spec::{CurveId, SurfaceId};
 use glam::DVec3;
 use std::collections::BTreeMap;
 
+/// Jacobian of a fit from which on the mesh resolves the shape (recipe, section 7).
+const RESOLVED: f64 = 0.7;
+
 /// What the controls ask of the nodes that follow them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Motion {

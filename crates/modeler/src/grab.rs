@@ -11,7 +11,13 @@ use ductile_spec::{GrabTarget, MAX_COORDINATE, PointId};
 use glam::DVec3;
 
 /// How far one drag can reach, in radii of the model at its beginning.
-const REACH: f64 = 20.0;
+const REACH: f64 = 5.0;
+/// A shape whose energy rises by more than this factor and this much in one drag is a wreck: no fair shape
+/// within reach costs as much, only crumpled ones do.
+const WRECK_FACTOR: f64 = 3.0;
+const WRECK_RISE: f64 = 60.0;
+/// Steps between two returns to the shape at the beginning of the drag.
+const PATIENCE: u32 = 30;
 
 /// A drag in progress.
 #[derive(Clone, Debug)]
@@ -24,13 +30,21 @@ pub(crate) struct Grab {
     pub(crate) has_moved: bool,
     /// The model before.
     pub(crate) before: Model,
+    /// The shapes at the beginning, with the new control in place.
+    home: Model,
+    energy_before: f64,
+    steps_since_return: u32,
     centre: DVec3,
     reach: f64,
 }
 
 impl Grab {
     /// Takes hold; a place on a curve or surface becomes a control point.
-    pub(crate) fn begin(model: &mut Model, target: GrabTarget) -> Result<Self, ModelError> {
+    pub(crate) fn begin(
+        model: &mut Model,
+        target: GrabTarget,
+        energy_before: f64,
+    ) -> Result<Self, ModelError> {
         let before = model.clone();
         let (centre, radius) = model.document.extent();
         let point = match target {
@@ -40,7 +54,34 @@ impl Grab {
         };
         let is_new = !matches!(target, GrabTarget::Point(_));
         let reach = REACH * if radius > 0.0 { radius } else { 1.0 };
-        Ok(Self { point, is_new, has_moved: false, before, centre, reach })
+        let home = model.clone();
+        let steps_since_return = PATIENCE;
+        Ok(Self {
+            point,
+            is_new,
+            has_moved: false,
+            before,
+            home,
+            energy_before,
+            steps_since_return,
+            centre,
+            reach,
+        })
+    }
+
+    /// A hand that shakes a surface hard enough crumples it, and a crumpled surface may stay so: its energy has other
+    /// valleys. Then the shapes go back to what they were when the drag began, and are carried straight
+    /// to where the hand is now. Returns whether that was needed.
+    pub(crate) fn rescue(&mut self, model: &mut Model, energy: f64, is_over: bool) -> bool {
+        self.steps_since_return = self.steps_since_return.saturating_add(1);
+        let is_wreck = energy.is_nan() || energy > WRECK_FACTOR * self.energy_before + WRECK_RISE;
+        if !is_wreck || (self.steps_since_return < PATIENCE && !is_over) {
+            return false;
+        }
+        self.steps_since_return = 0;
+        model.curves.clone_from(&self.home.curves);
+        model.surfaces.clone_from(&self.home.surfaces);
+        true
     }
 
     /// Follows the hand. Returns how far the point was moved; nothing for what is not a position.

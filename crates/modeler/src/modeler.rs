@@ -170,7 +170,8 @@ impl Modeler {
             return Err(ModelError::Dragging);
         }
         let before = self.model.clone();
-        match Grab::begin(&mut self.model, target) {
+        let energy = self.relaxer.energy();
+        match Grab::begin(&mut self.model, target, energy) {
             Ok(grab) => {
                 let at = self.model.point(grab.point).unwrap_or(DVec3::ZERO);
                 let grabbed = Grabbed { point: grab.point, at };
@@ -193,16 +194,26 @@ impl Modeler {
             }
         }
         self.relaxer.step(&mut self.model, step.iterations);
+        if let Some(grab) = self.grab.as_mut()
+            && self.relaxer.is_hand_slow()
+            && grab.rescue(&mut self.model, self.relaxer.energy(), false)
+        {
+            self.relaxer.count_rescue();
+            self.relaxer.wake();
+        }
     }
 
     fn let_go(&mut self) -> Result<Outcome, ModelError> {
-        let grab = self.grab.take().ok_or(ModelError::NothingHeld)?;
+        let mut grab = self.grab.take().ok_or(ModelError::NothingHeld)?;
         if !grab.has_moved {
             self.restore(grab.before);
             return Ok(Outcome::default());
         }
         match grab.finish(&mut self.model) {
             Ok(act) => {
+                if grab.rescue(&mut self.model, self.relaxer.energy(), true) {
+                    self.relaxer.count_rescue();
+                }
                 self.history.record(act, grab.before);
                 self.relaxer.wake();
                 Ok(Outcome { committed: Some(act.to_owned()), ..Outcome::default() })

@@ -79,6 +79,16 @@ impl Relaxer {
         }
     }
 
+    /// Whether the hand has been slow for a while.
+    pub(crate) fn is_hand_slow(&self) -> bool {
+        self.fast == 0
+    }
+
+    /// The true energy of all surfaces as they are now.
+    pub(crate) fn energy(&self) -> f64 {
+        self.surfaces.values().map(BoundSurface::energy).sum()
+    }
+
     /// Something impossible was asked for and ignored.
     pub(crate) fn count_rescue(&mut self) {
         self.rescues = self.rescues.saturating_add(1);
@@ -247,7 +257,7 @@ impl Relaxer {
     pub(crate) fn figures(&self, model: &Model) -> Figures {
         Figures {
             nodes: u32::try_from(model.node_count()).unwrap_or(u32::MAX),
-            energy: self.surfaces.values().map(BoundSurface::energy).sum(),
+            energy: self.energy(),
             residual: self.states.values().map(|state| state.residual).fold(0.0, f64::max),
             iterations: self.states.values().map(|state| state.iterations).max().unwrap_or(0),
             steps: self.steps,
