@@ -20,6 +20,8 @@
 mod build;
 mod check;
 mod dehydrate;
+#[cfg(test)]
+mod family;
 mod handle;
 pub mod io;
 mod label;

@@ -20,7 +20,12 @@ use crate::{EdgeId, FaceId, HalfedgeId, SourceTag, VertexId};
 /// Marks a missing twin and a dead slot.
 pub(crate) const NONE: u32 = u32::MAX;
 
-/// Connectivity of a triangulated surface. See the [module's text](self) for what it can hold.
+/// Connectivity of a triangulated surface: which triangles meet along which edges.
+///
+/// It may be of any topological type, closed or bounded, orientable or not, and in several pieces, but is
+/// always a simplicial complex: two vertices share at most one edge, three span at most one face, and
+/// every vertex has a face. The local orders (windings) of neighbouring faces may clash; on a one-sided
+/// surface somewhere they must. Positions are kept outside, in slices indexed by [`VertexId::index`].
 #[derive(Clone, Debug, Default)]
 pub struct Mesh {
     /// Vertex at each corner, three per face; `NONE` in dead faces.

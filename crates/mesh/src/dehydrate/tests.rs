@@ -1,4 +1,7 @@
+use proptest::prelude::*;
+
 use super::*;
+use crate::family::{draw_curve, family, nature, tag_boundary};
 use crate::{SourceTag, boundary_loops, measure, primitive, summary, validate};
 
 fn v(i: usize) -> VertexId {
@@ -106,4 +109,43 @@ fn many_control_points_all_stay() {
     }
     let wanted = mesh.vertices().filter(|&v| mesh.is_source_vertex(v)).count();
     assert_eq!(dried(&mesh, &positions).mesh.vertex_count(), wanted);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(if cfg!(target_arch = "wasm32") { 4 } else { 48 }))]
+
+    #[test]
+    fn drying_keeps_kind_points_curves_and_regions(
+        curves in prop::collection::vec((any::<u32>(), prop::collection::vec(any::<u32>(), 1..6)), 0..4),
+        boundary in any::<bool>(),
+        seed in any::<u32>(),
+    ) {
+        for (name, mesh) in family() {
+            // Curves need room: every triangle is cut into sixteen.
+            let points = vec![DVec3::ZERO; mesh.vertex_slots()];
+            let (finer, points) = primitive::subdivided(&mesh, &points);
+            let (mut fine, points) = primitive::subdivided(&finer, &points);
+            if boundary {
+                tag_boundary(&mut fine);
+            }
+            for (tag, (from, steps)) in (0..).zip(&curves) {
+                let steps: Vec<_> = steps.iter().map(|&s| s as usize).collect();
+                draw_curve(&mut fine, *from as usize, &steps, tag);
+            }
+            let tossed: Vec<_> = (0..points.len())
+                .map(|i| {
+                    let x = f64::from(seed) + i as f64;
+                    DVec3::new(libm::sin(x), libm::sin(3.0 * x), libm::cos(7.0 * x))
+                })
+                .collect();
+            let dry = dried(&fine, &tossed);
+            let mut before = nature(&fine);
+            // Control points keep their tags under new names.
+            for point in &mut before.points {
+                point.0 = dry.kept[point.0.index()].unwrap();
+            }
+            prop_assert_eq!(nature(&dry.mesh), before, "{}", name);
+            prop_assert!(dry.mesh.vertex_count() <= mesh.vertex_count() + 12 * curves.len() + 12, "{}", name);
+        }
+    }
 }

@@ -53,11 +53,16 @@ impl Diagonal {
         angle_at_diagonal(c, d, a, b)
     }
 
+    /// The smallest angle of the two triangles.
+    pub(super) fn corner_now(&self, positions: &[DVec3]) -> f64 {
+        let [a, b, c, d] = self.points(positions);
+        least_corner(a, b, c, d)
+    }
+
     /// The smallest angle of the two triangles that a flip would make.
     pub(super) fn corner_flipped(&self, positions: &[DVec3]) -> f64 {
         let [a, b, c, d] = self.points(positions);
-        let at_ends = angle_between(c - a, d - a).min(angle_between(c - b, d - b));
-        at_ends.min(angle_at_diagonal(c, d, a, b))
+        least_corner(c, d, a, b)
     }
 
     /// Whether the surface is flat enough here for the flip to make sense: no dihedral angle of more than
@@ -85,10 +90,16 @@ impl Diagonal {
 }
 
 /// The smallest angle between the segment `pq` and the sides of the quadrilateral `p r q s`.
-fn angle_at_diagonal(p: DVec3, q: DVec3, r: DVec3, s: DVec3) -> f64 {
+pub(super) fn angle_at_diagonal(p: DVec3, q: DVec3, r: DVec3, s: DVec3) -> f64 {
     let pq = q - p;
     angle_between(pq, r - p)
         .min(angle_between(pq, s - p))
         .min(angle_between(-pq, r - q))
         .min(angle_between(-pq, s - q))
+}
+
+/// The smallest angle of the triangles `p q r` and `p q s`.
+fn least_corner(p: DVec3, q: DVec3, r: DVec3, s: DVec3) -> f64 {
+    let opposite = angle_between(p - r, q - r).min(angle_between(p - s, q - s));
+    opposite.min(angle_at_diagonal(p, q, r, s))
 }

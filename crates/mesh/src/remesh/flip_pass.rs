@@ -5,12 +5,12 @@ use std::collections::VecDeque;
 use glam::DVec3;
 
 use super::diagonal::Diagonal;
-use super::{Edits, Limits};
+use super::{Edits, LEAST_CORNER, Limits};
 use crate::{EdgeId, Mesh, VertexId};
 
 /// The smallest angle at the diagonal must gain more than this (radians). Without it, edges of nearly
 /// square quadrilaterals chatter.
-const LEAST_GAIN: f64 = 0.05;
+pub(super) const LEAST_GAIN: f64 = 0.05;
 
 /// In the plane, flips that raise the smallest angle come to an end by themselves; in space with sharp
 /// edges they need not. So a pass makes at most this many per edge of the mesh (real passes make far less
@@ -29,8 +29,10 @@ pub enum Seeds<'a> {
 /// Flips edges whose smallest angle with the sides of their quadrilateral would grow by more than 0.05.
 ///
 /// Frozen are: curve and boundary edges; dihedral angles above 90° before or after; flips that would face
-/// a triangle away from the old ones; and flips that leave an inner vertex fewer than 4 neighbours, a
-/// boundary vertex fewer than 3, or give one more than the limit.
+/// a triangle away from the old ones; flips that leave an inner vertex fewer than 5 neighbours, a boundary
+/// vertex fewer than 3, or give one more than the limit. To be rid of a corner sharper than 15° an inner
+/// vertex may go down to 4 (a boundary vertex still to 3): [`repair_valence`](super::repair_valence) would
+/// undo any other such flip, and the two would never rest.
 pub fn flip_pass(mesh: &mut Mesh, positions: &[DVec3], seeds: Seeds<'_>, limits: &Limits<'_>) -> Edits {
     let mut edits = Edits::default();
     let mut waiting = vec![false; mesh.edge_slots()];
@@ -83,8 +85,17 @@ fn wanted(mesh: &Mesh, positions: &[DVec3], e: EdgeId, limits: &Limits<'_>) -> O
     let is_better = diagonal.angle_flipped(positions) > diagonal.angle_now(positions) + LEAST_GAIN;
     let is_welcome = is_better
         && diagonal.is_flat_enough(positions)
-        && diagonal.ends.iter().all(|&v| mesh.valence(v) > if mesh.is_boundary_vertex(v) { 3 } else { 4 })
+        && can_spare_neighbours(mesh, positions, &diagonal)
         && diagonal.opposite.iter().all(|&v| mesh.valence(v) < limits.most_neighbours)
         && mesh.can_flip(e).is_ok();
     is_welcome.then_some(diagonal)
+}
+
+/// Whether the ends of the diagonal may lose a neighbour each.
+pub(super) fn can_spare_neighbours(mesh: &Mesh, positions: &[DVec3], diagonal: &Diagonal) -> bool {
+    let is_sliver = || diagonal.corner_now(positions) < LEAST_CORNER;
+    diagonal.ends.into_iter().all(|v| match mesh.valence(v) {
+        n if mesh.is_boundary_vertex(v) => n > 3,
+        n => n > 5 || (n == 5 && is_sliver()),
+    })
 }

@@ -45,6 +45,10 @@ use crate::{EdgeId, Mesh, VertexId};
 /// surface, or a point of the control curve.
 pub type Place<'a> = dyn FnMut(&Mesh, &[DVec3], EdgeId) -> DVec3 + 'a;
 
+/// 15°. A flip that makes a sharper corner is no cure for a low valence, and a corner so sharp is worth a
+/// low valence to be rid of. Both passes share the limit, so neither undoes the other's flips.
+const LEAST_CORNER: f64 = core::f64::consts::PI / 12.0;
+
 /// How far a pass may go.
 #[derive(Clone, Copy)]
 pub struct Limits<'a> {
@@ -163,7 +167,7 @@ pub fn improve(
     let mut edits = split_long(mesh, positions, sizing, limits, place);
     edits.append(collapse_crowded(mesh, positions, sizing, limits), mesh);
     edits.append(flip_pass(mesh, positions, Seeds::All, limits), mesh);
-    edits.append(repair_valence(mesh, positions, limits), mesh);
+    edits.append(repair_valence(mesh, positions, sizing, limits), mesh);
     edits
 }
 

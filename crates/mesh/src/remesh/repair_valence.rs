@@ -4,23 +4,21 @@ use glam::DVec3;
 
 use super::collapse_crowded::collapse_into_nearest;
 use super::diagonal::Diagonal;
-use super::{Edits, Limits};
+use super::split_long::LONG;
+use super::{Edits, LEAST_CORNER, Limits, Sizing};
 use crate::{EdgeId, Mesh, VertexId};
 
 /// A full quadratic through the centre needs five neighbours.
 const ENOUGH: usize = 5;
 
-/// 15°: flips that make a sharper corner cure one ill with another.
-const LEAST_CORNER: f64 = core::f64::consts::PI / 12.0;
-
 /// Gives every inner vertex at least five neighbours where that is possible: the link edge whose flip
 /// makes the widest corners is turned towards it, if they are wider than 15° and the edge's ends keep five
 /// neighbours (three on the boundary); failing that, the vertex is collapsed into its nearest neighbour,
-/// unless it is pinned or on a curve.
+/// unless it is pinned or on a curve, or the other passes would only bring it back.
 ///
 /// This ends: every collapse leaves fewer vertices, and between collapses every flip leaves fewer missing
 /// neighbours, for no flip makes a vertex that lacks some.
-pub fn repair_valence(mesh: &mut Mesh, positions: &[DVec3], limits: &Limits<'_>) -> Edits {
+pub fn repair_valence(mesh: &mut Mesh, positions: &[DVec3], sizing: &Sizing, limits: &Limits<'_>) -> Edits {
     let mut edits = Edits::default();
     let mut stack: Vec<_> = mesh.vertices().filter(|&v| is_poor(mesh, v)).collect();
     stack.reverse();
@@ -29,7 +27,7 @@ pub fn repair_valence(mesh: &mut Mesh, positions: &[DVec3], limits: &Limits<'_>)
         if !mesh.has_vertex(v) || !is_poor(mesh, v) {
             continue;
         }
-        if let Some((e, diagonal)) = best_flip(mesh, positions, v, limits) {
+        if let Some((e, diagonal)) = best_flip(mesh, positions, sizing, v, limits) {
             mesh.flip(e);
             edits.flips += 1;
             edits.touched.extend(diagonal.ends.into_iter().chain(diagonal.opposite));
@@ -40,14 +38,11 @@ pub fn repair_valence(mesh: &mut Mesh, positions: &[DVec3], limits: &Limits<'_>)
             continue;
         }
         mesh.ring(v, &mut ring);
-        let mut candidates = ring.clone();
-        collapse_into_nearest(mesh, positions, v, &mut candidates, limits, |done| {
-            if done {
-                edits.collapses += 1;
-                edits.touched.extend_from_slice(&ring);
-                stack.extend_from_slice(&ring);
-            }
-        });
+        if collapse_into_nearest(mesh, positions, sizing, &ring, v, limits) {
+            edits.collapses += 1;
+            edits.touched.extend_from_slice(&ring);
+            stack.extend_from_slice(&ring);
+        }
     }
     edits.settle(mesh);
     edits
@@ -57,10 +52,12 @@ fn is_poor(mesh: &Mesh, v: VertexId) -> bool {
     !mesh.is_boundary_vertex(v) && mesh.valence(v) < ENOUGH
 }
 
-/// The edge across from `v` whose flip towards `v` makes the widest corners, if one may be flipped.
+/// The edge across from `v` whose flip towards `v` makes the widest corners, if one may be flipped. An edge
+/// made so long that it is split again would be no gain.
 fn best_flip(
     mesh: &Mesh,
     positions: &[DVec3],
+    sizing: &Sizing,
     v: VertexId,
     limits: &Limits<'_>,
 ) -> Option<(EdgeId, Diagonal)> {
@@ -74,7 +71,9 @@ fn best_flip(
         let Some(diagonal) = Diagonal::of(mesh, e) else { continue };
         let corner = diagonal.corner_flipped(positions);
         let can_spare = |&w: &VertexId| mesh.valence(w) > if mesh.is_boundary_vertex(w) { 3 } else { ENOUGH };
+        let [c, d] = diagonal.opposite;
         if corner > widest
+            && sizing.ratio_between(positions, c, d) <= LONG
             && diagonal.ends.iter().all(can_spare)
             && diagonal.opposite.iter().all(|&w| mesh.valence(w) < limits.most_neighbours)
             && diagonal.is_flat_enough(positions)

@@ -5,7 +5,7 @@ use std::collections::BinaryHeap;
 
 use glam::DVec3;
 
-use crate::{EdgeId, Mesh, VertexId, measure};
+use crate::{EdgeId, Mesh, VertexId};
 
 /// The target length of edges.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,8 +39,14 @@ impl Sizing {
     #[inline]
     #[must_use]
     pub fn ratio(&self, mesh: &Mesh, positions: &[DVec3], e: EdgeId) -> f64 {
-        let target = self.along(mesh, e);
-        let ratio = measure::edge_length(mesh, positions, e) / target;
+        let [a, b] = mesh.edge_vertices(e);
+        self.ratio_between(positions, a, b)
+    }
+
+    /// As [`Sizing::ratio`], for an edge that may not exist yet.
+    pub(super) fn ratio_between(&self, positions: &[DVec3], a: VertexId, b: VertexId) -> f64 {
+        let target = 0.5 * (self.at(a) + self.at(b));
+        let ratio = positions[a.index()].distance(positions[b.index()]) / target;
         if target > 0.0 && ratio.is_finite() { ratio } else { 0.0 }
     }
 
@@ -97,7 +103,7 @@ impl Sizing {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::primitive;
+    use crate::{measure, primitive};
 
     #[test]
     fn spreading_bounds_the_slope() {

@@ -30,7 +30,7 @@ fn least_gain_possible(mesh: &Mesh, positions: &[DVec3]) -> bool {
     mesh.edges().filter(|&e| mesh.can_flip(e).is_ok()).all(|e| {
         let d = diagonal::Diagonal::of(mesh, e).unwrap();
         let degrees =
-            d.ends.iter().all(|&v| mesh.valence(v) > if mesh.is_boundary_vertex(v) { 3 } else { 4 });
+            d.ends.iter().all(|&v| mesh.valence(v) > if mesh.is_boundary_vertex(v) { 3 } else { 5 });
         !degrees
             || !d.is_flat_enough(positions)
             || d.angle_flipped(positions) <= d.angle_now(positions) + 0.05
@@ -185,7 +185,7 @@ fn poor_vertices_are_mended() {
         positions[v.index()] = corners.into_iter().sum::<DVec3>().normalize_or_zero();
     }
     assert!(quality(&mesh, &positions).inner_valences[3] > 10);
-    let edits = repair_valence(&mut mesh, &positions, &Limits::default());
+    let edits = repair_valence(&mut mesh, &positions, &Sizing::Uniform(0.32), &Limits::default());
     assert_eq!(validate(&mesh), Ok(()));
     let q = quality(&mesh, &positions);
     assert_eq!(q.inner_valences[..5], [0; 5], "{edits:?}");
@@ -211,6 +211,33 @@ fn batches_come_to_rest_on_a_moving_shape() {
     }
     let stretched = improve(&mut mesh, &mut positions, &mut sizing, &Limits::default(), &mut midpoint);
     assert!(stretched.splits > 10);
+}
+
+#[test]
+fn batches_come_to_rest_without_smoothing() {
+    let on_ball = |mesh: &Mesh, at: &[DVec3], e| midpoint(mesh, at, e).normalize_or_zero();
+    for (name, (mut mesh, mut positions)) in [
+        ("ball", primitive::icosphere(1)),
+        ("torus", primitive::torus(10, 6, 1.0, 0.4)),
+        ("klein", primitive::klein_bottle(12, 8, 1.0, 0.4)),
+        ("plane", primitive::plane(4, 4, 0.5)),
+    ] {
+        for target in [0.2, 0.15, 0.1] {
+            let mut sizing = Sizing::Uniform(target);
+            let rested = (0..60).any(|_| {
+                let is_ball = name == "ball";
+                let mut place =
+                    |m: &Mesh, p: &[DVec3], e| if is_ball { on_ball(m, p, e) } else { midpoint(m, p, e) };
+                let edits = improve(&mut mesh, &mut positions, &mut sizing, &Limits::default(), &mut place);
+                edits.count() == 0
+            });
+            let q = quality(&mesh, &positions);
+            assert!(rested, "{name} {target}: splits, flips and collapses undo each other");
+            assert!(q.longest_edge <= 1.35 * target && q.least_angle > 0.2, "{name} {target}: {q:?}");
+            let poor: usize = q.inner_valences[..5].iter().sum();
+            assert!(100 * poor <= mesh.vertex_count(), "{name} {target}: {q:?}");
+        }
+    }
 }
 
 proptest! {
