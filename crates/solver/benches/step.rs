@@ -2,6 +2,8 @@
 //!
 //! The workloads live in the library, so that a wasm bench can run the same ones. Native only.
 
+#![allow(clippy::unwrap_used, reason = "a failing test or bench should stop where it fails")]
+
 #[cfg(not(target_arch = "wasm32"))]
 mod native {
     use std::time::Duration;

@@ -130,7 +130,10 @@ impl Laplacian {
             let double_area = sides[0].cross(sides[1]).length();
             for corner in 0..3 {
                 let cosine = -sides[(corner + 1) % 3].dot(sides[(corner + 2) % 3]);
-                // min and max also turn NaN into a number.
+                #[expect(
+                    clippy::manual_clamp,
+                    reason = "max and min also turn NaN into a number, clamp does not"
+                )]
                 let cotangent = (cosine / double_area).max(-CAP).min(CAP);
                 self.weights[opposite[corner] as usize] += 0.5 * cotangent;
             }

@@ -7,6 +7,15 @@
 //! Everything is pure numerics over flat arrays: no clock, no threads, no hash maps, `libm` for angles, no fused
 //! multiply-add. The same input gives the same bits on every target.
 
+#![expect(
+    clippy::neg_cmp_op_on_partial_ord,
+    reason = "a comparison that NaN must fail is written negated on purpose"
+)]
+#![expect(
+    clippy::needless_range_loop,
+    reason = "loops over the indices of a small matrix read like its formula"
+)]
+
 mod assembly;
 mod barrier;
 mod cg;

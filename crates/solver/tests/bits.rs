@@ -2,6 +2,8 @@
 //!
 //! Run on the other target with `cargo test -p ductile-solver --target wasm32-unknown-unknown --test bits`.
 
+#![allow(clippy::unwrap_used, reason = "a failing test or bench should stop where it fails")]
+
 use ductile_solver::workload::{self, Stream};
 use ductile_solver::{Budget, CurveSettings, CurveSolver, SurfaceSolver, resample};
 use glam::DVec3;

@@ -1,6 +1,8 @@
 //! The recipe's recorded values: energies, gradients and the raised disc.
 
-use ductile_solver::{Budget, Curvature, Rings, Settings, SurfaceSolver, workload};
+#![allow(clippy::unwrap_used, reason = "a failing test or bench should stop where it fails")]
+
+use ductile_solver::{Curvature, Rings, Settings, SurfaceSolver, workload};
 use glam::DVec3;
 use serde::Deserialize;
 
@@ -168,7 +170,7 @@ fn mean_height(positions: &[DVec3], triangles: &[[u32; 3]], radius: f64) -> f64 
             let wb = (point - a.truncate()).perp_dot((c - a).truncate()) / area;
             let wc = (b - a).truncate().perp_dot(point - a.truncate()) / area;
             let inside = wb >= -1e-9 && wc >= -1e-9 && wb + wc <= 1.0 + 1e-9;
-            inside.then(|| a.z + wb * (b.z - a.z) + wc * (c.z - a.z))
+            inside.then_some(a.z + wb * (b.z - a.z) + wc * (c.z - a.z))
         })
     };
     let directions = (0..24).map(|k| libm::sincos(std::f64::consts::TAU * f64::from(k) / 24.0));

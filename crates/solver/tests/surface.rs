@@ -1,5 +1,7 @@
 //! Surfaces as a modeler drives them: exactness, convergence, monotone energy, storms, nonsense.
 
+#![allow(clippy::unwrap_used, reason = "a failing test or bench should stop where it fails")]
+
 use ductile_solver::workload::{self, Stream, Workload};
 use ductile_solver::{Budget, Rings, Settings, SolverError, SurfaceSolver};
 use glam::{DQuat, DVec3};

@@ -29,9 +29,7 @@ fn relax(solver: &mut CurveSolver, positions: &mut [DVec3], limit: usize) -> Vec
 fn gradient_matches_central_differences() {
     let mut stream = Stream::new(7);
     for closed in [false, true] {
-        let mut settings = CurveSettings::default();
-        settings.tension = 0.3;
-        settings.slack = 0.5;
+        let settings = CurveSettings { tension: 0.3, slack: 0.5, ..CurveSettings::default() };
         let count = 9;
         let fixed = (0..count).map(|i| i % 3 == 0).collect();
         let mut solver = CurveSolver::new(count, closed, fixed, settings).unwrap();
