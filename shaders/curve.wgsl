@@ -18,7 +18,7 @@ struct Segment {
 @group(1) @binding(2) var<storage, read> styles: array<Style>;
 
 // Device pixels by which curves are lifted off a surface.
-const LIFT: f32 = 4.0;
+const LIFT: f32 = 6.0;
 
 struct Stroke {
     @builtin(position) @invariant clip: vec4f,
@@ -58,6 +58,16 @@ fn cut(first: vec2f, second: vec2f) -> vec2f {
         return sum / size;
     }
     return normalize(second);
+}
+
+// How far beyond its end a segment may reach: a round cap where the curve ends, else only as far as the cut
+// slants.
+fn overhang(along: vec2f, across: vec2f, reach: f32) -> f32 {
+    let cosine = dot(along, across);
+    if all(across == vec2f(0.0)) || cosine < 0.7 {
+        return reach;
+    }
+    return reach * sqrt(max(1.0 - cosine * cosine, 0.0)) / cosine + 0.75;
 }
 
 @vertex
@@ -105,7 +115,8 @@ fn curve_vertex(@builtin(vertex_index) corner: u32, @builtin(instance_index) ind
     let reach = (style.half_width + style.outline_width) * frame.options.x + 1.0;
     let is_stop = (corner & 1u) != 0u;
     let side = select(-1.0, 1.0, (corner & 2u) != 0u);
-    let at = select(a.xy - along * reach, b.xy + along * reach, is_stop);
+    let over = overhang(along, select(cuts.xy, cuts.zw, is_stop), reach);
+    let at = select(a.xy - along * over, b.xy + along * over, is_stop);
     stroke.clip = clip_of(at + vec2f(-along.y, along.x) * (side * reach), select(a.z, b.z, is_stop));
     return stroke;
 }
@@ -117,7 +128,8 @@ fn stroke_ink(in: Stroke) -> vec4f {
     let is_before = dot(from_start, in.cuts.xy) < 0.0;
     let is_after = any(in.cuts.zw != vec2f(0.0)) && dot(from_stop, in.cuts.zw) >= 0.0;
     if is_before || is_after {
-        discard;
+        // No ink; cheaper than to discard, which would delay the test of depth.
+        return vec4f(0.0);
     }
     let step = in.ends.zw - in.ends.xy;
     let part = clamp(dot(from_start, step) / max(dot(step, step), 1e-9), 0.0, 1.0);

@@ -30,7 +30,7 @@ fn point_vertex(@builtin(vertex_index) corner: u32, @builtin(instance_index) ind
             disc.clip = vec4f(0.0, 0.0, 2.0, 1.0);
             return disc;
         }
-        centre = pixel_of(lifted(at, reach + 4.0 * frame.options.x));
+        centre = pixel_of(lifted(at, reach + 6.0 * frame.options.x));
     }
     disc.centre = centre.xy;
     let side = vec2f(vec2u(corner & 1u, corner >> 1u)) * 2.0 - 1.0;

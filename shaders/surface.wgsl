@@ -11,7 +11,8 @@ struct SurfaceStyle {
     sides: vec4f,
 }
 
-@group(1) @binding(0) var<storage, read> floats: array<f32>;
+// Six floats a vertex, two at a time: position, then normal.
+@group(1) @binding(0) var<storage, read> pairs: array<vec2f>;
 @group(1) @binding(1) var<storage, read> indices: array<u32>;
 @group(1) @binding(2) var<storage, read> styles: array<SurfaceStyle>;
 
@@ -19,34 +20,35 @@ struct Facet {
     @builtin(position) clip: vec4f,
     @location(0) at: vec3f,
     @location(1) normal: vec3f,
-    @location(2) weights: vec3f,
-    @location(3) @interpolate(flat) flat_normal: vec3f,
-    @location(4) @interpolate(flat) style: u32,
+    // Barycentric, the first two.
+    @location(2) weights: vec2f,
+    @location(3) @interpolate(flat) style: u32,
 }
 
-fn vector(at: u32) -> vec3f {
-    return vec3f(floats[at], floats[at + 1u], floats[at + 2u]);
+fn position(vertex: u32) -> vec3f {
+    return vec3f(pairs[3u * vertex], pairs[3u * vertex + 1u].x);
 }
 
 @vertex
 fn surface_vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) surface: u32) -> Facet {
     let corner = index % 3u;
-    let first = index - corner;
-    let a = vector(6u * indices[first]);
-    let b = vector(6u * indices[first + 1u]);
-    let c = vector(6u * indices[first + 2u]);
-    // Scaled first, so that the square of a small edge does not vanish.
-    let scale = 1.0 / max(max(length(b - a), length(c - a)), 1e-18);
-    let flat_normal = cross((b - a) * scale, (c - a) * scale);
-    let own = 6u * indices[index];
-    let at = vector(own);
-    let normal = vector(own + 3u);
+    // The own vertex first, then the other two in their order round the triangle.
+    let own = indices[index];
+    let second = indices[select(index + 1u, index - 2u, corner == 2u)];
+    let third = indices[select(index + 2u, index - 1u, corner != 0u)];
+    let middle = pairs[3u * own + 1u];
+    let at = vec3f(pairs[3u * own], middle.x);
+    let normal = vec3f(middle.y, pairs[3u * own + 2u]);
+    // Scaled, so that the product of small edges does not vanish.
+    let ab = position(second) - at;
+    let ac = position(third) - at;
+    let scale = 1.0 / max(max(length(ab), length(ac)), 1e-18);
+    let flat_normal = cross(ab * scale, ac * scale);
     var facet: Facet;
     facet.clip = frame.clip_from_world * vec4f(at, 1.0);
     facet.at = at;
     facet.normal = select(normal, -normal, dot(normal, flat_normal) < 0.0);
-    facet.weights = vec3f(vec3u(corner) == vec3u(0u, 1u, 2u));
-    facet.flat_normal = flat_normal;
+    facet.weights = vec2f(vec2u(corner) == vec2u(0u, 1u));
     facet.style = surface;
     return facet;
 }
@@ -60,29 +62,37 @@ fn lit(albedo: vec3f, n: vec3f, to_eye: vec3f) -> vec3f {
     let above = mix(frame.ground.rgb, frame.sky.rgb, 0.5 + 0.5 * n.z);
     var light = albedo * (above + vec3f(1.0, 0.965, 0.91) * (frame.key.w * key * sqrt(key)) + vec3f(0.78, 0.88, 1.0) * (frame.fill.w * fill));
     let half_way = normalize(frame.key.xyz + to_eye);
+    // Powers by multiplication: 10 for a broad sheen, 56 for the highlight.
     let shine = max(dot(n, half_way), 0.0);
-    light += vec3f(1.0, 0.98, 0.95) * frame.key.w * (0.16 * pow(shine, 56.0) + 0.05 * pow(shine, 10.0));
-    let rim = pow(1.0 - facing, 4.0);
+    let shine_2 = shine * shine;
+    let shine_4 = shine_2 * shine_2;
+    let shine_8 = shine_4 * shine_4;
+    let shine_16 = shine_8 * shine_8;
+    let highlight = shine_16 * shine_16 * shine_16 * shine_8;
+    light += vec3f(1.0, 0.98, 0.95) * frame.key.w * (0.16 * highlight + 0.05 * shine_8 * shine_2);
+    let rim_2 = (1.0 - facing) * (1.0 - facing);
+    let rim = rim_2 * rim_2;
     light += frame.sky.rgb * (frame.sky.w * rim * (0.6 + 0.4 * n.z));
     return max(light, vec3f(0.0));
 }
 
 @fragment
-fn surface_fragment(in: Facet) -> @location(0) vec4f {
+fn surface_fragment(in: Facet, @builtin(front_facing) is_front: bool) -> @location(0) vec4f {
     let style = styles[in.style];
     let to_eye = toward_eye(in.at);
-    let tilt = dot(in.flat_normal, to_eye);
     var n = normalize(in.normal);
-    n = select(-n, n, tilt >= 0.0);
+    n = select(-n, n, is_front);
+    let facing = dot(n, to_eye);
     // Near the outline the smooth normal may point away although the triangle is seen: bend it back.
-    n = normalize(n - to_eye * min(dot(n, to_eye) - 0.02, 0.0));
+    n = normalize(n - to_eye * min(facing - 0.02, 0.0));
     // The slivers of back that rounding lets through at the outline are not told apart.
-    let back = style.sides.x * smoothstep(0.05, 0.2, -tilt / max(length(in.flat_normal), 1e-30));
+    let back = select(style.sides.x * smoothstep(0.05, 0.2, facing), 0.0, is_front);
     let albedo = mix(frame.front.rgb, frame.back.rgb, back);
     var colour = encoded(softened(lit(albedo, n, to_eye)));
     colour = mix(colour, style.tint.rgb, style.tint.a);
 
-    let edge = in.weights / max(fwidth(in.weights), vec3f(1e-6));
+    let weights = vec3f(in.weights, 1.0 - in.weights.x - in.weights.y);
+    let edge = weights / max(fwidth(weights), vec3f(1e-6));
     let nearest = min(edge.x, min(edge.y, edge.z));
     let line = frame.options.z * frame.wire.a * clamp(0.5 * frame.options.x + 0.5 - nearest, 0.0, 1.0);
     return vec4f(mix(colour, frame.wire.rgb, line), 1.0);

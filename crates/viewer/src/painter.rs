@@ -199,10 +199,11 @@ impl Painter {
             multiview_mask: None,
         });
         pass.set_bind_group(0, &self.frame_group, &[]);
-        self.background.draw_gradient(&mut pass);
         if self.has_frame && look.surface {
             self.surfaces.draw(&mut pass);
         }
+        // Only where no surface is.
+        self.background.draw_gradient(&mut pass);
         if look.grid {
             self.background.draw_grid(&mut pass);
         }

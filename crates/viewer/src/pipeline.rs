@@ -70,7 +70,7 @@ impl Layouts {
 /// How a pass meets what is drawn already.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Meets {
-    /// Behind everything, opaque.
+    /// Behind everything, opaque: at depth 0, where nothing is.
     Background,
     /// Solid: hides what is behind it.
     Solid,
@@ -111,7 +111,7 @@ impl Workshop<'_> {
 
     pub(crate) fn pipeline(&self, shader: &ShaderModule, recipe: &Recipe<'_>) -> RenderPipeline {
         let (compare, writes_depth, blend) = match recipe.meets {
-            Meets::Background => (CompareFunction::Always, false, None),
+            Meets::Background => (CompareFunction::GreaterEqual, false, None),
             // Reversed depth: what is nearer is greater.
             Meets::Solid => (CompareFunction::Greater, true, None),
             Meets::Visible => {

@@ -67,8 +67,8 @@ impl Theme {
         Self {
             top: display(0x2f_34_3c, 1.0),
             bottom: display(0x17_19_1d, 1.0),
-            front: linear(0xa0_a8_b3),
-            back: linear(0x90_76_63),
+            front: linear(0x88_90_9c),
+            back: linear(0x80_69_58),
             sky: Vec4::new(0.20, 0.245, 0.32, 0.60),
             ground: Vec4::new(0.075, 0.07, 0.075, 0.0),
             key: 0.98,
