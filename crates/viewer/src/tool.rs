@@ -165,6 +165,8 @@ pub struct Surroundings<'a> {
     pub structure: &'a Structure,
     /// The identity that the next new point will have.
     pub next_point: PointId,
+    /// Where the eye looks.
+    pub forward: Vec3,
 }
 
 /// A key that a tool understands.
@@ -338,7 +340,11 @@ impl Toolbox {
         if self.corners.len() < 2 {
             return say("A curve needs at least two points.");
         }
-        let corners = std::mem::take(&mut self.corners);
+        let mut corners = std::mem::take(&mut self.corners);
+        if closed && turns_away(&corners, around.forward) {
+            // A sheet over the curve then shows its outside to the designer.
+            corners[1..].reverse();
+        }
         if corners.iter().all(|corner| corner.point.is_none()) {
             let at = corners.iter().map(|corner| corner.at.as_dvec3()).collect();
             return vec![Act::Edit(Edit::Draw { at, closed })];
@@ -375,6 +381,13 @@ impl Toolbox {
             }
         }
     }
+}
+
+/// Whether a closed polygon runs clockwise as the eye sees it (the sum is Newell's normal).
+fn turns_away(corners: &[Corner], forward: Vec3) -> bool {
+    let next = corners.iter().cycle().skip(1);
+    let normal: Vec3 = corners.iter().zip(next).map(|(a, b)| a.at.cross(b.at)).sum();
+    normal.dot(forward) > 0.0
 }
 
 const NO_PLACE: &str = "The work plane is seen edge-on here: turn the view a little.";

@@ -13,11 +13,15 @@ fn structure() -> Structure {
 }
 
 fn click(tools: &mut Toolbox, aim: Aim<'_>) -> Vec<Act> {
-    tools.click(aim, Surroundings { structure: &structure(), next_point: PointId(4) })
+    tools.click(aim, around(&structure()))
 }
 
 fn key(tools: &mut Toolbox, key: ToolKey) -> Vec<Act> {
-    tools.key(key, Surroundings { structure: &structure(), next_point: PointId(4) })
+    tools.key(key, around(&structure()))
+}
+
+fn around(structure: &Structure) -> Surroundings<'_> {
+    Surroundings { structure, next_point: PointId(4), forward: Vec3::NEG_Z }
 }
 
 fn on_plane(x: f32) -> Aim<'static> {
@@ -188,5 +192,20 @@ fn the_ghost_passes_through_every_corner() {
         let line = ghost_line(&corners, closed);
         assert!(corners.iter().all(|c| line.iter().any(|p| p.distance(*c) < 1e-6)));
         assert_eq!(line[0].distance(line[line.len() - 1]) < 1e-6, closed);
+    }
+}
+
+#[test]
+fn a_closed_curve_runs_counterclockwise_for_the_eye() {
+    let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[x, y]| Vec3::new(x, y, 0.0));
+    let clockwise = [square[0], square[3], square[2], square[1]];
+    for corners in [square, clockwise] {
+        let mut tools = with(ToolKind::Curve);
+        for at in corners {
+            click(&mut tools, Aim { place: Some(at), ..Aim::default() });
+        }
+        let acts = click(&mut tools, Aim { corner: Some(0), ..Aim::default() });
+        let at = square.map(|at| at.as_dvec3()).to_vec();
+        assert_eq!(acts, [Act::Edit(Edit::Draw { at, closed: true })]);
     }
 }

@@ -11,6 +11,8 @@ use glam::{Vec2, Vec3};
 /// How near the pointer must come to a point or a curve, in CSS pixels: a mouse, a fingertip.
 const REACH: f32 = 9.0;
 const FINGER_REACH: f32 = 20.0;
+/// A model that is brought into view keeps clear of what floats at the edges.
+pub(crate) const MARGIN: f32 = 1.14;
 /// How near to a corner of a curve under way.
 const CORNER_REACH: f32 = 12.0;
 
@@ -182,8 +184,11 @@ impl Page {
         let hit = self.thing_at(at);
         let aim =
             Aim { hit: hit.as_ref(), place: self.place_on_plane(at, modifiers), corner: self.corner_at(at) };
-        let around =
-            Surroundings { structure: &self.scene.structure, next_point: self.document.next_point() };
+        let around = Surroundings {
+            structure: &self.scene.structure,
+            next_point: self.document.next_point(),
+            forward: self.camera.forward(),
+        };
         let acts = self.tools.click(aim, around);
         self.perform(acts);
     }
@@ -275,8 +280,11 @@ impl Page {
         let place = self.place_on_plane(middle, Modifiers::default());
         let hit = hit.filter(|_| self.tools.kind() != ToolKind::Point);
         let aim = Aim { hit: hit.as_ref(), place, corner: None };
-        let around =
-            Surroundings { structure: &self.scene.structure, next_point: self.document.next_point() };
+        let around = Surroundings {
+            structure: &self.scene.structure,
+            next_point: self.document.next_point(),
+            forward: self.camera.forward(),
+        };
         let acts = self.tools.click(aim, around);
         self.perform(acts);
     }
@@ -284,7 +292,7 @@ impl Page {
     /// Brings everything into view.
     pub(crate) fn fit_all(&mut self) {
         if let Some((centre, radius)) = self.scene.bounds() {
-            let pose = self.camera.pose_that_fits(centre, radius);
+            let pose = self.camera.pose_that_fits(centre, MARGIN * radius);
             self.fly_to(pose);
         }
     }

@@ -54,8 +54,7 @@ impl Journal {
 
     /// Writes under another identity from now on; what was written stays.
     pub(crate) fn take_new_identity(&mut self) {
-        let random = |_| char::from_digit((Math::random() * 36.0).floor() as u32 % 36, 36).unwrap_or('0');
-        self.tab = (0..12).map(random).collect();
+        self.tab = format!("{:x}{:x}", Date::now().to_bits(), Math::random().to_bits());
         if let Some(session) = session() {
             let _ = session.set_item(TAB, &self.tab);
         }

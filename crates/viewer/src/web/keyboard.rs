@@ -196,9 +196,12 @@ impl Page {
     }
 
     pub(crate) fn tool_key(&mut self, key: ToolKey) {
-        let structure = &self.scene.structure;
-        let next_point = self.document.next_point();
-        let acts = self.tools.key(key, Surroundings { structure, next_point });
+        let around = Surroundings {
+            structure: &self.scene.structure,
+            next_point: self.document.next_point(),
+            forward: self.camera.forward(),
+        };
+        let acts = self.tools.key(key, around);
         self.perform(acts);
     }
 

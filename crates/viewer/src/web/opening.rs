@@ -54,6 +54,7 @@ impl Page {
     /// What was asked for cannot be opened and nothing is there: the journal, else the example, once each.
     pub(crate) fn open_fallback(&mut self) {
         self.fallbacks += 1;
+        self.falling_back = true;
         match self.fallbacks {
             1 => self.open_kept(),
             2 => self.request(Request::OpenExample(Example::RaisedDisc)),

@@ -8,7 +8,7 @@ use super::panel::Panel;
 use super::port::Port;
 use super::settings::Settings;
 use super::stage::Stage;
-use super::{canvas, commands, files, inspect, keyboard, link, opening, panel, stage};
+use super::{canvas, commands, fields, files, inspect, keyboard, link, opening, stage};
 use crate::limit::Limit;
 use crate::schedule::Schedule;
 use crate::tool::{Selection, Toolbox};
@@ -62,6 +62,8 @@ pub(crate) struct Page {
     pub(crate) fit_is_due: bool,
     /// How often something else had to be opened in place of what was asked for.
     pub(crate) fallbacks: u32,
+    /// What opens next is not what was asked for, so the banner that says so stays.
+    pub(crate) falling_back: bool,
     /// A frame did not fit and the model was asked for anew.
     pub(crate) describing: bool,
 }
@@ -111,13 +113,14 @@ pub(crate) fn start() {
         resetting: false,
         fit_is_due: false,
         fallbacks: 0,
+        falling_back: false,
         describing: false,
     };
     PAGE.with_borrow_mut(|slot| *slot = Some(page));
     commands::listen();
     keyboard::listen();
     canvas::listen();
-    panel::listen();
+    fields::listen();
     files::listen();
     link::listen();
     stage::listen();

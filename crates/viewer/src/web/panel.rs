@@ -1,15 +1,11 @@
-//! What floats at the edges: the scene list, the properties, the status line, the name.
+//! What floats at the edges: the scene list, the properties, the status line.
 
 use super::dom;
-use super::page::{Page, act};
-use crate::number;
+use super::page::Page;
 use crate::tool::{Selection, ToolKind, entry, span};
-use ductile_spec::{CurveRole, Edit, PointId, PointRole, Request, SurfaceSummary};
-use glam::DVec3;
+use ductile_spec::{CurveRole, PointRole, SurfaceSummary};
 use wasm_bindgen::JsCast;
-use web_sys::{Element, Event, HtmlElement, HtmlInputElement, KeyboardEvent};
-
-const COORDINATES: [&str; 3] = ["x", "y", "z"];
+use web_sys::{Element, HtmlElement};
 
 /// The elements of the panel and what they show.
 #[derive(Debug)]
@@ -20,7 +16,7 @@ pub(crate) struct Panel {
     listed: Option<(u32, Selection)>,
     pub(crate) welcome_is_over: bool,
     /// The field whose text was refused, and what was selected then.
-    refused: Option<(&'static str, Selection)>,
+    pub(crate) refused: Option<(&'static str, Selection)>,
     is_bare: bool,
     side: HtmlElement,
     welcome: HtmlElement,
@@ -29,7 +25,9 @@ pub(crate) struct Panel {
 impl Panel {
     pub(crate) fn new() -> Self {
         let side = dom::element("side");
-        dom::class(&side, "closed", dom::media("(max-width: 640px)"));
+        let closed = dom::media("(max-width: 640px)");
+        dom::class(&side, "closed", closed);
+        dom::attribute(&dom::element("scene-button"), "aria-expanded", if closed { "false" } else { "true" });
         Self {
             is_stale: true,
             figures_are_stale: true,
@@ -58,52 +56,6 @@ impl Panel {
     }
 }
 
-/// Listens to the fields.
-pub(crate) fn listen() {
-    let closed = dom::element("side").class_list().contains("closed");
-    dom::attribute(&dom::element("scene-button"), "aria-expanded", if closed { "false" } else { "true" });
-    for (index, id) in COORDINATES.into_iter().enumerate() {
-        on_field(id, move |page, text| page.typed_coordinate(index, text));
-    }
-    on_field("spacing", Page::typed_spacing);
-    on_field("name", |page, text| {
-        let name = text.trim().to_owned();
-        if name != page.document.name {
-            page.request(Request::Edit(Edit::Rename { name }));
-        }
-        None
-    });
-}
-
-/// Takes what was typed when the field is left or Enter is pressed; Escape puts the old text back.
-fn on_field(id: &'static str, typed: impl Fn(&mut Page, &str) -> Option<String> + Copy + 'static) {
-    let field: HtmlInputElement = dom::element_as(id);
-    let own = field.clone();
-    dom::listen(&field, "change", move |_: Event| {
-        let text = own.value();
-        act(move |page| {
-            let error = typed(page, &text);
-            page.show_field_error(id, error.as_deref());
-        });
-    });
-    let own = field.clone();
-    dom::listen(&field, "keydown", move |event: KeyboardEvent| match event.key().as_str() {
-        "Enter" => {
-            let _ = own.blur();
-        }
-        "Escape" => {
-            let field = own.clone();
-            act(move |page| {
-                page.fill_field(&field, true);
-                page.show_field_error(id, None);
-                let _ = field.blur();
-            });
-        }
-        _ => {}
-    });
-    dom::listen(&field, "blur", |_: Event| act(|page| page.refresh()));
-}
-
 impl Page {
     /// The page shows the newest state at the next display tick.
     pub(crate) fn refresh(&mut self) {
@@ -116,11 +68,6 @@ impl Page {
     pub(crate) fn refresh_figures(&mut self) {
         self.panel.figures_are_stale = true;
         self.redraw();
-    }
-
-    /// Where a control point is, exactly as the document has it.
-    pub(crate) fn exact_place(&self, id: PointId) -> Option<DVec3> {
-        self.document.points.get(&id).copied().or_else(|| self.scene.point(id).map(|at| at.as_dvec3()))
     }
 
     /// Shows what has changed since the last tick.
@@ -154,7 +101,7 @@ impl Page {
         let figures = &self.scene.header.figures;
         let rests = self.schedule.is_at_rest();
         dom::text(&dom::element("figure-nodes"), &format!("{} nodes", figures.nodes));
-        dom::text(&dom::element("figure-energy"), &format!("energy {:.4}", figures.energy));
+        dom::text(&dom::element("figure-energy"), &format!("energy {:.4}", whole_zero(figures.energy)));
         dom::class(&dom::element("state-dot"), "rest", rests);
         let state = if !self.port.is_ready() {
             "starting"
@@ -317,82 +264,6 @@ impl Page {
             },
         }
     }
-
-    fn show_fields(&self) {
-        for id in COORDINATES.into_iter().chain(["spacing"]) {
-            self.fill_field(&dom::element_as(id), false);
-        }
-    }
-
-    /// Writes the present value into a field, unless the designer is typing in it.
-    fn fill_field(&self, field: &HtmlInputElement, even_focused: bool) {
-        let focused = dom::document().active_element();
-        if !even_focused && focused.as_ref() == Some(field.unchecked_ref::<Element>()) {
-            return;
-        }
-        let id = field.id();
-        if !even_focused && self.panel.refused.is_some_and(|(refused, _)| refused == id) {
-            return;
-        }
-        let value = match (id.as_str(), self.selection) {
-            ("name", _) => self.document.name.clone(),
-            ("spacing", _) => self.document.spacing.map(number::show).unwrap_or_default(),
-            (_, Selection::Point(point)) => {
-                let live = self.scene.header.held == Some(point);
-                let place = if live {
-                    self.scene.point(point).map(|at| at.as_dvec3())
-                } else {
-                    self.exact_place(point)
-                };
-                let index = COORDINATES.iter().position(|name| *name == id).unwrap_or(0);
-                place.map(|place| number::show(place[index])).unwrap_or_default()
-            }
-            _ => String::new(),
-        };
-        if field.value() != value {
-            field.set_value(&value);
-        }
-    }
-
-    fn typed_coordinate(&mut self, index: usize, text: &str) -> Option<String> {
-        let Selection::Point(point) = self.selection else { return None };
-        let place = self.exact_place(point)?;
-        match number::parse(text) {
-            Ok(value) if number::show(value) == number::show(place[index]) => None,
-            Ok(value) => {
-                let mut to = place;
-                to[index] = value;
-                self.request(Request::Edit(Edit::Move { point, to }));
-                None
-            }
-            Err(error) => Some(error.to_string()),
-        }
-    }
-
-    fn typed_spacing(&mut self, text: &str) -> Option<String> {
-        let spacing = if text.trim().is_empty() {
-            None
-        } else {
-            match number::parse(text) {
-                Ok(value) if value > 0.0 => Some(value),
-                Ok(_) => return Some("An edge length is above 0; nothing means automatic.".to_owned()),
-                Err(error) => return Some(error.to_string()),
-            }
-        };
-        if spacing.map(number::show) != self.document.spacing.map(number::show) {
-            self.request(Request::Edit(Edit::Spacing { spacing }));
-        }
-        None
-    }
-
-    fn show_field_error(&mut self, id: &'static str, error: Option<&str>) {
-        self.panel.refused = error.map(|_| (id, self.selection));
-        let line = dom::element("number-error");
-        dom::text(&line, error.unwrap_or_default());
-        dom::show(&line, error.is_some());
-        dom::attribute(&dom::element(id), "aria-invalid", if error.is_some() { "true" } else { "false" });
-        self.refresh();
-    }
 }
 
 fn list_entry(list: &Element, kind: &str, number: u32, note: &str, selected: bool) {
@@ -408,6 +279,11 @@ fn list_entry(list: &Element, kind: &str, number: u32, note: &str, selected: boo
     let item = dom::create("li");
     dom::append(&item, [&button]);
     dom::append(list, [&item]);
+}
+
+/// What is shown as zero has no sign.
+fn whole_zero(value: f64) -> f64 {
+    if value.abs() < 5e-5 { 0.0 } else { value }
 }
 
 fn topology(summary: &SurfaceSummary) -> Vec<(&'static str, String)> {

@@ -1,6 +1,7 @@
 //! What the page does with the answers of the worker, and with its death.
 
 use super::dom;
+use super::gestures::MARGIN;
 use super::page::Page;
 use super::port::Answer;
 use crate::schedule::Answered;
@@ -144,7 +145,10 @@ impl Page {
         if *answered == Answered::Opening {
             self.resetting = false;
             self.reopening = false;
-            let text = format!("{} The model on the screen is as it was.", sentence(&refusal.reason));
+            let mut text = sentence(&refusal.reason);
+            if self.committed.is_some() {
+                text.push_str(" The model on the screen is as it was.");
+            }
             self.notices.banner("opening", &text, &[]);
             if self.committed.is_none() {
                 // Nothing is on the screen yet: a refused link must not leave the page empty.
@@ -175,7 +179,9 @@ impl Page {
                 self.openings += 1;
                 self.selection = Selection::None;
                 self.tools.choose(ToolKind::Shape);
-                self.notices.dismiss("opening");
+                if !std::mem::take(&mut self.falling_back) {
+                    self.notices.dismiss("opening");
+                }
                 self.fit_is_due = true;
                 return;
             }
@@ -195,9 +201,9 @@ impl Page {
         }
         let Some((centre, radius)) = self.scene.bounds() else { return };
         if self.openings <= 1 {
-            self.camera.fit(centre, radius);
+            self.camera.fit(centre, MARGIN * radius);
         } else {
-            let pose = self.camera.pose_that_fits(centre, radius);
+            let pose = self.camera.pose_that_fits(centre, MARGIN * radius);
             self.fly_to(pose);
         }
     }

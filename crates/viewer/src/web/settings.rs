@@ -52,9 +52,15 @@ impl Settings {
         if let Some(theme) = word.strip_prefix("theme-").and_then(Theme::of) {
             self.theme = theme;
         } else if let Some(name) = word.strip_prefix("no-") {
-            self.switch(name).map(|shown| *shown = false);
+            self.set(name, false);
         } else {
-            self.switch(word).map(|shown| *shown = true);
+            self.set(word, true);
+        }
+    }
+
+    fn set(&mut self, name: &str, shown: bool) {
+        if let Some(switch) = self.switch(name) {
+            *switch = shown;
         }
     }
 
