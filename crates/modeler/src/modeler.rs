@@ -96,7 +96,7 @@ impl Modeler {
         }
         reply.frame = FrameHeader {
             topology_version: self.frame.structure.version,
-            settled: self.relaxer.is_settled() && self.grab.is_none(),
+            settled: self.relaxer.is_settled(),
             held: self.grab.as_ref().map(|grab| grab.point),
             figures: self.relaxer.figures(&self.model),
         };
