@@ -1,0 +1,163 @@
+// The main job with a real pointer: take hold, pull, see it follow, rest, take back.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { assertOnCanvas, atRest, distance, newPoints, picture, point, pointAway, wide } from "./support/model.mjs";
+import { inspect, untilInspect, withPage } from "./support/page.mjs";
+import { difference } from "./support/pixels.mjs";
+import { drag } from "./support/pointer.mjs";
+
+const options = { viewport: wide };
+/** Pixels of half an edge of the mesh: a place near one of its nodes takes hold of that node. */
+const edge = 10;
+
+test("a control point follows the pointer, the shape rests, undo and redo are exact", async () => {
+  await withPage(options, async (page) => {
+    await pointAway(page);
+    const before = await atRest(page);
+    const seen = await picture(page);
+    const from = point(before, 7).screen;
+    const to = [from[0] + 10, from[1] - 90];
+    await assertOnCanvas(page, from, to);
+    await drag(page, from, to, {
+      async beforeRelease() {
+        const state = await untilInspect(page, (now) => now.held === 7 && distance(point(now, 7).screen, to) < 3);
+        assert.notEqual(state.figures.energy, before.figures.energy, "it relaxes while it is held");
+        assert.equal(state.document, before.document, "nothing is committed before the release");
+      },
+    });
+    await pointAway(page);
+    const after = await atRest(page, (state) => state.document !== before.document);
+    assert.equal(after.held, null);
+    assert.equal(after.selection, "point 7");
+    assert.ok(distance(point(after, 7).screen, to) < 3, "it stays where it was let go");
+    assert.ok(distance(point(after, 7).at, point(before, 7).at) > 0.1);
+    assert.ok(Math.abs(after.figures.energy - before.figures.energy) > 0.1, "the energy is another");
+    for (const id of [1, 2, 3, 4, 5, 6]) assert.deepEqual(point(after, id).at, point(before, id).at, `point ${id} stays`);
+    const document = JSON.parse(after.document);
+    assert.ok(distance(document.points[7], point(after, 7).at) < 1e-5, "the document says what the picture shows");
+    const changed = difference(seen, await picture(page));
+    assert.ok(changed > 0.05, `the picture is another one in ${changed} of its pixels`);
+    assert.notEqual(after.undo, null);
+
+    await page.keyboard.press("Control+z");
+    const back = await atRest(page, (state) => state.document !== after.document);
+    assert.equal(back.document, before.document, "undo brings the very document back");
+    assert.ok(Math.abs(back.figures.energy / before.figures.energy - 1) < 0.02, "and its shape");
+    const remains = difference(seen, await picture(page), 24);
+    assert.ok(remains < 0.02, `the former picture is back but for ${remains}`);
+    assert.notEqual(back.redo, null);
+
+    await page.keyboard.press("Control+Shift+Z");
+    const again = await atRest(page, (state) => state.document !== before.document);
+    assert.equal(again.document, after.document, "redo brings the second one back");
+    assert.ok(Math.abs(again.figures.energy / after.figures.energy - 1) < 0.02);
+  });
+});
+
+test("dragging the bare surface makes a control point that follows", async () => {
+  await withPage(options, async (page) => {
+    const before = await atRest(page);
+    const [from, to] = onBareSurface(before);
+    await assertOnCanvas(page, from, to);
+    await drag(page, from, to);
+    const after = await atRest(page, (state) => state.document !== before.document);
+    const [made, ...more] = newPoints(after, before);
+    assert.deepEqual(more, [], "one point, not several");
+    assert.equal(made.role, "Surface");
+    assert.ok(distance(made.screen, to) < edge, `it is where the pointer let go: ${made.screen} at ${to}`);
+    assert.equal(after.selection, `point ${made.id}`);
+    const { skeleton } = JSON.parse(after.document).surfaces[1];
+    assert.ok(skeleton.vertices.includes(made.id), "the document holds the surface there");
+    assert.ok(after.figures.energy > before.figures.energy, "one more control costs energy");
+    assert.equal(after.surfaces[0].summary.euler, 1, "it is still a disc");
+
+    // The next drag takes the same point, not a new one.
+    await drag(page, made.screen, [made.screen[0], made.screen[1] + 30]);
+    const lower = await atRest(page, (state) => state.document !== after.document);
+    assert.equal(lower.points.length, after.points.length);
+    assert.ok(distance(point(lower, made.id).screen, [made.screen[0], made.screen[1] + 30]) < 3);
+  });
+});
+
+test("Escape during a drag puts everything back", async () => {
+  await withPage(options, async (page) => {
+    await pointAway(page);
+    const before = await atRest(page);
+    const seen = await picture(page);
+    const [from, to] = onBareSurface(before);
+    await drag(page, from, to, {
+      async beforeRelease() {
+        const held = await untilInspect(page, (state) => state.held !== null && state.points.length === 8);
+        await untilInspect(page, (state) => distance(point(state, held.held).screen, to) < edge);
+        assert.ok(difference(seen, await picture(page)) > 0.02, "the surface has been pulled");
+        await page.keyboard.press("Escape");
+        await untilInspect(page, (state) => state.held === null);
+        // What the hand still does means nothing.
+        await page.mouse.move(to[0] + 40, to[1] + 40, { steps: 5 });
+      },
+    });
+    await pointAway(page);
+    const after = await atRest(page);
+    assert.equal(after.document, before.document, "the document is as before");
+    assert.equal(after.undo, before.undo, "there is nothing to undo");
+    assert.deepEqual(after.points.map(({ id, at }) => [id, at]), before.points.map(({ id, at }) => [id, at]));
+    assert.ok(Math.abs(after.figures.energy / before.figures.energy - 1) < 1e-3, "the shape is as before");
+    const remains = difference(seen, await picture(page), 24);
+    assert.ok(remains < 0.005, `the picture is as before but for ${remains}`);
+  });
+});
+
+test("a place of the boundary curve becomes a point of the curve; a double click releases it", async () => {
+  await withPage(options, async (page) => {
+    const before = await atRest(page);
+    const from = onBareCurve(before);
+    const to = [from[0] - 20, from[1] + 30];
+    await assertOnCanvas(page, from, to);
+    await drag(page, from, to);
+    const after = await atRest(page, (state) => state.document !== before.document);
+    const [made, ...more] = newPoints(after, before);
+    assert.deepEqual(more, []);
+    assert.equal(made.role, "Curve");
+    assert.ok(distance(made.screen, to) < 3, `it is where the pointer let go: ${made.screen} at ${to}`);
+    const { through, closed } = JSON.parse(after.document).curves[1];
+    assert.deepEqual([...through].sort(), [1, 2, 3, 4, made.id].sort(), "the curve passes through it");
+    assert.ok(closed);
+    assert.equal(after.surfaces.length, 1, "the surface still hangs on the curve");
+
+    await page.mouse.dblclick(...made.screen);
+    const free = await atRest(page, (state) => state.document !== after.document);
+    assert.ok(!JSON.parse(free.document).curves[1].through.includes(made.id), "the curve has let go of it");
+    assert.ok(Math.abs(free.figures.energy / before.figures.energy - 1) < 0.02, "and has its former shape");
+    assert.equal(free.surfaces[0].summary.euler, 1);
+    assert.equal((await inspect(page)).undo, free.undo);
+  });
+});
+
+test("releasing a control of the surface lets it relax", async () => {
+  await withPage(options, async (page) => {
+    const before = await atRest(page);
+    const from = point(before, 7).screen;
+    await drag(page, from, [from[0], from[1] - 60]);
+    const pulled = await atRest(page, (state) => state.document !== before.document);
+    await page.mouse.dblclick(...point(pulled, 7).screen);
+    const after = await atRest(page, (state) => state.document !== pulled.document);
+    assert.ok(!JSON.parse(after.document).surfaces[1].skeleton.vertices.includes(7));
+    assert.ok(after.figures.energy < pulled.figures.energy - 0.5, "without the control that pulled it there is less energy");
+  });
+});
+
+/** A place of the surface far from all controls, and where to drag it. */
+function onBareSurface(state) {
+  const corners = [3, 4, 6, 7].map((id) => point(state, id).screen);
+  const from = [0, 1].map((axis) => corners.reduce((sum, place) => sum + place[axis], 0) / corners.length);
+  for (const { screen } of state.points) assert.ok(distance(screen, from) > 30);
+  return [from, [from[0] + 15, from[1] - 80]];
+}
+
+/** A place of the boundary in front, far from all controls. */
+function onBareCurve(state) {
+  const free = state.curves[0].screen.filter((place) => state.points.every(({ screen }) => distance(screen, place) > 30));
+  assert.ok(free.length > 0);
+  return free.reduce((lowest, place) => (place[1] > lowest[1] ? place : lowest));
+}

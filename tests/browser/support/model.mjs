@@ -1,0 +1,78 @@
+// What tests ask of the model and its picture again and again.
+
+import assert from "node:assert/strict";
+import { inspect, untilInspect } from "./page.mjs";
+import { pixels } from "./pixels.mjs";
+
+/** Wide enough for the layout with panels at the sides, small enough for rendering by software. */
+export const wide = { width: 900, height: 560 };
+
+const patience = { timeout: 90_000 };
+
+/** Waits until a document is there, nothing is asked of the solver and nothing relaxes; returns the state. */
+export function atRest(page, predicate = () => true) {
+  const rests = (state) => state?.document != null && state.settled && !state.camera.flying && predicate(state);
+  return untilInspect(page, rests, patience);
+}
+
+/** A control point of a state by its identity. */
+export function point(state, id) {
+  const found = state.points.find((entry) => entry.id === id);
+  assert.ok(found, `there is a point ${id}`);
+  return found;
+}
+
+/** The points of a state that another one does not have. */
+export function newPoints(state, before) {
+  return state.points.filter(({ id }) => !before.points.some((entry) => entry.id === id));
+}
+
+/** How far apart two places of the same dimension are. */
+export function distance(a, b) {
+  return Math.hypot(...a.map((value, index) => value - b[index]));
+}
+
+/** Fails unless the canvas itself, not a panel over it, gets what happens at these places. */
+export async function assertOnCanvas(page, ...places) {
+  for (const place of places) {
+    const id = await page.evaluate(([x, y]) => document.elementFromPoint(x, y)?.id, place);
+    assert.equal(id, "view", `the canvas is uncovered at ${place}`);
+  }
+}
+
+/** Moves the pointer to a corner of the canvas where nothing is: no hover, no tip. */
+export async function pointAway(page) {
+  await page.mouse.move(80, 300);
+  await untilInspect(page, (state) => state.hover === null);
+}
+
+/** The middle of the picture, where no panel, banner or toast lies, once everything known has been drawn. */
+export async function picture(page) {
+  await drawn(page);
+  const { width, height } = page.viewportSize();
+  const whole = await pixels(page, undefined);
+  const [left, top, right, bottom] = [60, 60, width - 240, height - 140];
+  const part = { width: right - left, height: bottom - top, data: Buffer.alloc(4 * (right - left) * (bottom - top)) };
+  for (let y = 0; y < part.height; y += 1) {
+    const start = 4 * ((top + y) * whole.width + left);
+    whole.data.copy(part.data, 4 * y * part.width, start, start + 4 * part.width);
+  }
+  return part;
+}
+
+/** Waits for two display ticks: what was due has been drawn. */
+export function drawn(page) {
+  const ticks = () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(true))));
+  return page.evaluate(ticks);
+}
+
+/** Clicks a command of a menu as a hand does: opens the menu, then chooses. */
+export async function choose(page, menu, command) {
+  await page.locator(`#${menu}-button`).click();
+  await page.locator(`#${menu}-menu [data-command="${command}"]`).click();
+}
+
+/** The document after the last act, read. */
+export async function documentOf(page) {
+  return JSON.parse((await inspect(page)).document);
+}
