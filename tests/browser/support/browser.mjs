@@ -7,8 +7,9 @@ import { chromium } from "playwright-core";
 const settings = JSON.parse(readFileSync(new URL("../webdriver.json", import.meta.url), "utf8"));
 const flags = settings["goog:chromeOptions"].args.map((flag) => `--${flag}`);
 
-/** A browser; `cargo xtask test` says in CHROME which. Further flags can be given. */
-export function launch(...more) {
+/** A browser; `cargo xtask test` says in CHROME which. Further flags can be given; `webgpu: false` leaves those out that bring it. */
+export function launch({ more = [], webgpu = true } = {}) {
   const executablePath = process.env.CHROME ?? "/usr/bin/chromium";
-  return chromium.launch({ executablePath, args: [...flags, ...more] });
+  const wanted = flags.filter((flag) => webgpu || !/webgpu|vulkan/i.test(flag));
+  return chromium.launch({ executablePath, args: [...wanted, ...more] });
 }

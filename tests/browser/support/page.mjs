@@ -10,7 +10,8 @@ import { serve } from "./server.mjs";
  *
  * Options: `viewport` (640 × 400: software rendering is slow, keep it small), `hash` (of the address, with `#`),
  * `query` (with `?`), `extra` (see `serve`), `context` (more options of Playwright's `newContext`), `allow`,
- * `settle` (false: do not wait for the program to start).
+ * `settle` (false: do not wait for the program to start), `flags` (more of them for the browser), `webgpu` (false: a
+ * browser without it), `init` (a function that runs in every page before its own program).
  */
 export async function withPage(options, body) {
   const session = await open(options);
@@ -25,9 +26,10 @@ export async function withPage(options, body) {
 /** As `withPage`, for tests that need more than one page; close the session yourself. */
 export async function open(options = {}) {
   const server = await serve(undefined, options.extra);
-  const browser = await launch(...(options.flags ?? []));
+  const browser = await launch({ more: options.flags, webgpu: options.webgpu });
   const viewport = options.viewport ?? { width: 640, height: 400 };
   const context = await browser.newContext({ viewport, ...options.context });
+  if (options.init) await context.addInitScript(options.init);
   const session = {
     browser,
     context,

@@ -1,0 +1,186 @@
+// From nothing to a surface, to a file and back.
+
+import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
+import { test } from "node:test";
+import { assertOnCanvas, atRest, choose, distance, newPoints, wide } from "./support/model.mjs";
+import { inspect, untilInspect, withPage } from "./support/page.mjs";
+import { drag } from "./support/pointer.mjs";
+
+const corners = [[300, 210], [560, 190], [590, 390], [280, 370]];
+
+test("four clicks and one make a curve, another a surface; it can be pulled", async () => {
+  await withPage({ viewport: wide }, async (page) => {
+    const surface = await sheet(page);
+    assert.equal(surface.surfaces.length, 1);
+    const { summary } = surface.surfaces[0];
+    assert.deepEqual(summary, { euler: 1, boundaries: 1, components: 1, orientable: true, genus: 0 });
+    assert.ok(Math.abs(surface.figures.energy) < 0.01, `a flat sheet costs nothing, not ${surface.figures.energy}`);
+
+    await page.locator("#tool-shape").click();
+    const from = [430, 290];
+    const to = [435, 200];
+    await assertOnCanvas(page, from, to);
+    await drag(page, from, to);
+    const after = await atRest(page, (state) => state.document !== surface.document);
+    const [made, ...more] = newPoints(after, surface);
+    assert.deepEqual(more, []);
+    assert.equal(made.role, "Surface");
+    assert.ok(distance(made.screen, to) < 20, `it went along: ${made.screen}`);
+    assert.ok(after.figures.energy > 0.5, `a bump costs energy: ${after.figures.energy}`);
+    assert.equal(after.surfaces[0].summary.euler, 1);
+
+    // All the way back: bump, sheet, curve, the new document, and what was there before.
+    for (const gone of [["points", 4], ["surfaces", 0], ["curves", 0]]) {
+      await page.keyboard.press("Control+z");
+      await atRest(page, (state) => state[gone[0]].length === gone[1]);
+    }
+    await page.keyboard.press("Control+z");
+    await atRest(page, (state) => state.name === "Raised disc" && state.surfaces.length === 1);
+  });
+});
+
+test("Enter ends an open curve, Backspace takes a corner back, a sheet over it is refused with a reason", async () => {
+  await withPage({ viewport: wide }, async (page) => {
+    await atRest(page);
+    await choose(page, "file", "new");
+    const empty = await atRest(page, ({ points }) => points.length === 0);
+    await page.keyboard.press("c");
+    for (const corner of corners) await page.mouse.click(...corner);
+    await untilInspect(page, (state) => state.corners === 4);
+    await page.keyboard.press("Backspace");
+    await untilInspect(page, (state) => state.corners === 3);
+    await page.keyboard.press("Enter");
+    const drawn = await atRest(page, ({ curves }) => curves.length === 1);
+    assert.equal(drawn.curves[0].closed, false);
+    assert.equal(drawn.points.length, 3);
+    assert.notEqual(drawn.document, empty.document);
+
+    await page.keyboard.press("s");
+    await page.mouse.click(...drawn.curves[0].screen[1]);
+    const refused = await untilInspect(page, ({ toast }) => toast?.includes("only a closed curve can be skinned"));
+    assert.equal(refused.document, drawn.document);
+    assert.equal(refused.surfaces.length, 0);
+  });
+});
+
+test("a saved file is the document; it opens again; a damaged one does not", async () => {
+  await withPage({ viewport: wide }, async (page) => {
+    const made = await sheet(page);
+    const [saved] = await Promise.all([page.waitForEvent("download", { timeout: 60_000 }), page.keyboard.press("Control+s")]);
+    assert.match(saved.suggestedFilename(), /\.ductile\.json$/);
+    const text = await readFile(await saved.path(), "utf8");
+    assert.deepEqual(JSON.parse(text), JSON.parse(made.document));
+
+    await choose(page, "file", "new");
+    await atRest(page, ({ points }) => points.length === 0);
+    await page.locator("#file").setInputFiles(file("again.ductile.json", text));
+    const again = await atRest(page, ({ surfaces }) => surfaces.length === 1);
+    assert.equal(again.document, made.document, "the file brings the very document back");
+    assert.deepEqual(again.surfaces[0].summary, made.surfaces[0].summary);
+
+    await dropped(page, "damaged.json", text.slice(0, text.length / 2));
+    const kept = await untilInspect(page, ({ banners }) => banners.length > 0);
+    assert.match(kept.banners.join(), /line \d+.*The model on the screen is as it was/);
+    assert.equal(kept.document, made.document);
+    assert.equal(kept.surfaces.length, 1);
+
+    await dropped(page, "large.json", " ".repeat((4 << 20) + 1));
+    const large = await untilInspect(page, ({ banners }) => banners.some((line) => line.includes("large.json")));
+    assert.match(large.banners.join(), /the limit is 4194304.*The model on the screen is as it was/);
+    assert.equal((await atRest(page)).document, made.document);
+
+    const other = JSON.parse(text);
+    other.name = "Dropped";
+    await dropped(page, "other.json", JSON.stringify(other));
+    const opened = await atRest(page, ({ name }) => name === "Dropped");
+    assert.deepEqual(opened.banners, [], "what was wrong before is over");
+    assert.deepEqual(JSON.parse(opened.document), other);
+  });
+});
+
+test("an exported OBJ has the vertices and faces that are shown", async () => {
+  await withPage({ viewport: wide }, async (page) => {
+    const state = await atRest(page);
+    const coming = page.waitForEvent("download", { timeout: 60_000 });
+    await choose(page, "file", "export-obj");
+    const exported = await coming;
+    assert.match(exported.suggestedFilename(), /\.obj$/);
+    const lines = (await readFile(await exported.path(), "utf8")).split("\n");
+    const vertices = lines.filter((line) => line.startsWith("v "));
+    const faces = lines.filter((line) => line.startsWith("f "));
+    const [surface] = state.surfaces;
+    assert.equal(vertices.length, surface.vertex_count);
+    assert.equal(faces.length, surface.index_count / 3);
+    for (const line of vertices) assert.match(line, /^v( -?\d+(\.\d+)?(e-?\d+)?){3}$/);
+    const indices = faces.flatMap((line) => line.slice(2).split(" ").map((part) => Number.parseInt(part, 10)));
+    assert.equal(Math.min(...indices), 1);
+    assert.equal(Math.max(...indices), vertices.length);
+    const heights = vertices.map((line) => Number(line.split(" ")[3]));
+    assert.ok(Math.max(...heights) >= 0.5, "the raised disc is raised");
+  });
+});
+
+test("every example opens and rests", async () => {
+  const topologies = { disc: [1, 1], saddle: [1, 1], cylinder: [0, 2], ball: [2, 0], "raised-disc": [1, 1] };
+  await withPage({ viewport: wide }, async (page) => {
+    let before = await atRest(page);
+    const names = await page.locator("#examples button").evaluateAll((buttons) => buttons.map((b) => b.dataset.subject));
+    assert.deepEqual([...names].sort(), Object.keys(topologies).sort());
+    for (const name of Object.keys(topologies)) {
+      await page.locator("#file-button").click();
+      await page.locator(`#examples [data-subject="${name}"]`).click();
+      const openings = before.openings;
+      const after = await atRest(page, (state) => state.openings === openings + 1);
+      const [{ summary }] = after.surfaces;
+      assert.deepEqual([summary.euler, summary.boundaries], topologies[name], name);
+      assert.ok(after.figures.energy > -1e-6 && after.figures.energy < 60, `${name} has energy ${after.figures.energy}`);
+      before = after;
+    }
+  });
+});
+
+/** New document, a closed curve through four places, a sheet over it. */
+async function sheet(page) {
+  await atRest(page);
+  await choose(page, "file", "new");
+  const empty = await atRest(page, (state) => state.points.length === 0);
+  assert.equal(empty.surfaces.length, 0);
+  await page.locator("#tool-curve").click();
+  await assertOnCanvas(page, ...corners);
+  for (const [index, corner] of corners.entries()) {
+    await page.mouse.click(...corner);
+    await untilInspect(page, (state) => state.corners === index + 1);
+  }
+  await page.mouse.click(...corners[0]);
+  const drawn = await atRest(page, (state) => state.curves.length === 1);
+  assert.equal(drawn.curves[0].closed, true);
+  assert.equal(drawn.points.length, 4);
+  for (const corner of corners) {
+    const nearest = Math.min(...drawn.points.map(({ screen }) => distance(screen, corner)));
+    assert.ok(nearest < 1.5, `a point is where ${corner} was clicked, not ${nearest} pixels away`);
+  }
+  await page.locator("#tool-sheet").click();
+  const place = drawn.curves[0].screen.find((at) => corners.every((corner) => distance(at, corner) > 25));
+  await page.mouse.click(...place);
+  const made = await atRest(page, (state) => state.surfaces.length === 1);
+  assert.equal((await inspect(page)).act, made.act);
+  return made;
+}
+
+function file(name, text) {
+  return { name, mimeType: "application/json", buffer: Buffer.from(text) };
+}
+
+/** Drops a file on the canvas, as a file manager does. */
+async function dropped(page, name, text) {
+  const dataTransfer = await page.evaluateHandle(([called, content]) => {
+    const transfer = new DataTransfer();
+    transfer.items.add(new File([content], called, { type: "application/json" }));
+    return transfer;
+  }, [name, text]);
+  await page.dispatchEvent("#view", "dragover", { dataTransfer });
+  assert.equal(await page.locator("#drop-target").isVisible(), true);
+  await page.dispatchEvent("#view", "drop", { dataTransfer });
+  assert.equal(await page.locator("#drop-target").isVisible(), false);
+}
