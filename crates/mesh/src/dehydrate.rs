@@ -58,27 +58,36 @@ pub fn dehydrate(mesh: &Mesh, positions: &[DVec3]) -> Dehydrated {
     Dehydrated { mesh, kept }
 }
 
+/// When a vertex should go, low first. Bits of non-negative floats sort like the floats.
+type Urgency = (u64, u64);
+
 /// Deletes what can be deleted, starting from `candidates`; returns those that were refused, since edits
 /// elsewhere may have made room for them.
 fn dry(mesh: &mut Mesh, positions: &[DVec3], candidates: &[VertexId]) -> Vec<VertexId> {
+    let mut newest: Vec<Option<Urgency>> = vec![None; mesh.vertex_slots()];
     let mut queue = BinaryHeap::new();
+    let mut around = Vec::new();
+    let mut offer = |mesh: &Mesh, v: VertexId, newest: &mut [Option<Urgency>], queue: &mut BinaryHeap<_>| {
+        newest[v.index()] = urgency(mesh, positions, v, &mut around);
+        queue.extend(newest[v.index()].map(|key| Reverse((key, v))));
+    };
     for &v in candidates {
-        queue.extend(urgency(mesh, positions, v).map(|key| Reverse((key, v))));
+        offer(mesh, v, &mut newest, &mut queue);
     }
     let mut refused = Vec::new();
     let mut ring = Vec::new();
     while let Some(Reverse((key, v))) = queue.pop() {
-        if !mesh.has_vertex(v) || urgency(mesh, positions, v) != Some(key) {
+        if newest[v.index()] != Some(key) {
             continue; // gone, or queued again under a newer key
         }
+        newest[v.index()] = None;
         mesh.ring(v, &mut ring);
-        match mesh.delete_vertex_by(v, |t| price(t.map(|w| positions[w.index()]))) {
-            Ok(()) => {
-                for &w in &ring {
-                    queue.extend(urgency(mesh, positions, w).map(|key| Reverse((key, w))));
-                }
-            }
-            Err(_) => refused.push(v),
+        if mesh.delete_vertex_by(v, |t| price(t.map(|w| positions[w.index()]))).is_err() {
+            refused.push(v);
+            continue;
+        }
+        for &w in &ring {
+            offer(mesh, w, &mut newest, &mut queue);
         }
     }
     refused.retain(|&v| mesh.has_vertex(v));
@@ -87,36 +96,31 @@ fn dry(mesh: &mut Mesh, positions: &[DVec3], candidates: &[VertexId]) -> Vec<Ver
     refused
 }
 
-/// How soon `v` should go, low first: by its distance from the plane (or the chord) of its neighbours,
-/// then by its mean edge length. As bits, which sort like the non-negative floats they are; `None` for
-/// vertices that stay.
-fn urgency(mesh: &Mesh, positions: &[DVec3], v: VertexId) -> Option<(u64, u64)> {
+/// The distance of `v` from the plane (or the chord) of its neighbours, then its mean edge length; `None`
+/// for vertices that stay.
+fn urgency(mesh: &Mesh, positions: &[DVec3], v: VertexId, ring: &mut Vec<VertexId>) -> Option<Urgency> {
+    let track = mesh.track(v).ok()?;
+    mesh.ring(v, ring);
     let here = positions[v.index()];
     let at = |w: VertexId| positions[w.index()];
-    let (mut total, mut length, mut count) = (DVec3::ZERO, 0.0, 0.0);
-    for w in mesh.neighbours(v) {
-        total += at(w);
-        length += at(w).distance(here);
-        count += 1.0;
-    }
-    let deviation = match mesh.track(v).ok()? {
+    let count = f64::from(u32::try_from(ring.len()).unwrap_or(u32::MAX));
+    let centre = ring.iter().map(|&w| at(w)).sum::<DVec3>() / count;
+    let length = ring.iter().map(|&w| at(w).distance(here)).sum::<f64>() / count;
+    let deviation = match track {
         Track::Along(a, b) => {
             let (p, q) = (at(mesh.other_end(a, v)), at(mesh.other_end(b, v)));
             let along = (q - p).normalize_or_zero();
             (here - p - (here - p).dot(along) * along).length()
         }
         Track::Free => {
-            let centre = total / count;
-            let mut normal = DVec3::ZERO;
-            for w in mesh.wedges(v) {
-                let side = (at(mesh.target(w.corner)) - centre).cross(at(mesh.apex(w.corner)) - centre);
-                normal += if w.agrees { side } else { -side };
-            }
+            let ahead = ring.iter().cycle().skip(1);
+            let normal: DVec3 =
+                ring.iter().zip(ahead).map(|(&w, &x)| (at(w) - centre).cross(at(x) - centre)).sum();
             (here - centre).dot(normal.normalize_or_zero()).abs()
         }
     };
     let bits = |x: f64| if x >= 0.0 { x.to_bits() } else { 0 };
-    Some((bits(deviation), bits(length / count)))
+    Some((bits(deviation), bits(length)))
 }
 
 /// Small triangles first, compact ones among equals: fillings of least area fold least.

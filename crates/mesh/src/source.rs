@@ -60,7 +60,7 @@ impl Mesh {
     /// Whether a control curve passes through, ends at or forks at `v`.
     #[must_use]
     pub fn is_on_source_curve(&self, v: VertexId) -> bool {
-        self.spokes(v).any(|e| self.is_source_edge(e))
+        self.edges_at(v).any(|e| self.is_source_edge(e))
     }
 }
 

@@ -92,7 +92,7 @@ impl Mesh {
     /// The edge joining `a` and `b`, if they are neighbours.
     #[must_use]
     pub fn edge_between(&self, a: VertexId, b: VertexId) -> Option<EdgeId> {
-        self.spokes(a).find(|&e| self.other_end(e, a) == b)
+        self.sides_around(a).find(|&h| self.far_end(a, h) == b).map(|h| self.edge_of(h))
     }
 
     /// The end of `e` that is not `v`.
@@ -186,10 +186,46 @@ impl Mesh {
 
     /// The neighbours of `v` in ring order.
     pub fn neighbours(&self, v: VertexId) -> impl Iterator<Item = VertexId> + '_ {
-        self.spoke_sides(v).map(move |h| {
-            let a = self.origin(h);
-            if a == v { self.target(h) } else { a }
+        self.spoke_sides(v).map(move |h| self.far_end(v, h))
+    }
+
+    #[inline]
+    fn far_end(&self, v: VertexId, h: HalfedgeId) -> VertexId {
+        let a = self.origin(h);
+        if a == v { self.target(h) } else { a }
+    }
+
+    /// One side per edge at `v` from the anchor on, in a single sweep; at a boundary not in ring order.
+    fn sides_around(&self, v: VertexId) -> impl Iterator<Item = HalfedgeId> + '_ {
+        let start = Wedge { corner: self.anchor(v), agrees: true };
+        let (mut ahead, mut rim, mut behind) = (Some(start), None, None);
+        core::iter::from_fn(move || {
+            let Some(now) = ahead else {
+                if let Some(last) = rim.take() {
+                    return Some(last);
+                }
+                let now: Wedge = behind?;
+                behind = self.wedge_before(v, now);
+                return Some(now.entry());
+            };
+            ahead = self.wedge_after(v, now);
+            if ahead.is_none() {
+                rim = Some(now.exit());
+                behind = self.wedge_before(v, start);
+            }
+            ahead = ahead.filter(|w| w.corner != start.corner);
+            Some(now.entry())
         })
+    }
+
+    /// The edges at `v`, at a boundary not in ring order: for questions that need no order.
+    pub(crate) fn edges_at(&self, v: VertexId) -> impl Iterator<Item = EdgeId> + '_ {
+        self.sides_around(v).map(|h| self.edge_of(h))
+    }
+
+    /// The neighbours of `v`, at a boundary not in ring order.
+    pub(crate) fn neighbours_of(&self, v: VertexId) -> impl Iterator<Item = VertexId> + '_ {
+        self.sides_around(v).map(move |h| self.far_end(v, h))
     }
 
     /// One side per edge at `v` in ring order: the entries of its wedges, and at a boundary the last exit.
@@ -254,7 +290,7 @@ impl Mesh {
     /// The number of neighbours of `v`.
     #[must_use]
     pub fn valence(&self, v: VertexId) -> usize {
-        self.spoke_sides(v).count()
+        self.sides_around(v).count()
     }
 
     /// Whether `v` lies on the boundary.
@@ -266,7 +302,7 @@ impl Mesh {
     /// Whether `a` and `b` are joined by an edge.
     #[must_use]
     pub fn are_neighbours(&self, a: VertexId, b: VertexId) -> bool {
-        self.neighbours(a).any(|w| w == b)
+        self.neighbours_of(a).any(|w| w == b)
     }
 
     /// Whether the rings of the two ends of `e` are walked in the same sense, seen across the edge.

@@ -41,16 +41,17 @@ impl Diagonal {
         [a, b, c, d].map(|v| positions[v.index()])
     }
 
-    /// The smallest angle between the diagonal `ab` and the sides.
-    pub(super) fn angle_now(&self, positions: &[DVec3]) -> f64 {
+    /// By how much a flip would raise the smallest angle between the diagonal and the sides; 0 if it
+    /// would not.
+    pub(super) fn gain(&self, positions: &[DVec3]) -> f64 {
         let [a, b, c, d] = self.points(positions);
-        angle_at_diagonal(a, b, c, d)
-    }
-
-    /// The smallest angle between the other diagonal `cd` and the sides.
-    pub(super) fn angle_flipped(&self, positions: &[DVec3]) -> f64 {
-        let [a, b, c, d] = self.points(positions);
-        angle_at_diagonal(c, d, a, b)
+        let (cos_now, now) = sharpest(corners_at_diagonal(a, b, c, d));
+        let (cos_flipped, flipped) = sharpest(corners_at_diagonal(c, d, a, b));
+        if cos_flipped < cos_now {
+            angle_between(flipped.0, flipped.1) - angle_between(now.0, now.1)
+        } else {
+            0.0
+        }
     }
 
     /// The smallest angle of the two triangles.
@@ -89,13 +90,30 @@ impl Diagonal {
     }
 }
 
+/// The corners between the segment `pq` and the sides of the quadrilateral `p r q s`, as pairs of legs.
+fn corners_at_diagonal(p: DVec3, q: DVec3, r: DVec3, s: DVec3) -> [(DVec3, DVec3); 4] {
+    let pq = q - p;
+    [(pq, r - p), (pq, s - p), (-pq, r - q), (-pq, s - q)]
+}
+
 /// The smallest angle between the segment `pq` and the sides of the quadrilateral `p r q s`.
 pub(super) fn angle_at_diagonal(p: DVec3, q: DVec3, r: DVec3, s: DVec3) -> f64 {
-    let pq = q - p;
-    angle_between(pq, r - p)
-        .min(angle_between(pq, s - p))
-        .min(angle_between(-pq, r - q))
-        .min(angle_between(-pq, s - q))
+    let (_, (a, b)) = sharpest(corners_at_diagonal(p, q, r, s));
+    angle_between(a, b)
+}
+
+/// The corner with the smallest angle and its cosine: the cosine finds it without arcs. A corner without
+/// legs counts as sharp.
+fn sharpest(corners: [(DVec3, DVec3); 4]) -> (f64, (DVec3, DVec3)) {
+    let cosine = |(a, b): (DVec3, DVec3)| {
+        let scale = (a.length_squared() * b.length_squared()).sqrt();
+        if scale > 0.0 { a.dot(b) / scale } else { 1.0 }
+    };
+    let [first, rest @ ..] = corners;
+    rest.into_iter().fold((cosine(first), first), |best, corner| {
+        let cosine = cosine(corner);
+        if cosine > best.0 { (cosine, corner) } else { best }
+    })
 }
 
 /// The smallest angle of the triangles `p q r` and `p q s`.

@@ -82,8 +82,7 @@ fn wanted(mesh: &Mesh, positions: &[DVec3], e: EdgeId, limits: &Limits<'_>) -> O
         return None;
     }
     let diagonal = Diagonal::of(mesh, e)?;
-    let is_better = diagonal.angle_flipped(positions) > diagonal.angle_now(positions) + LEAST_GAIN;
-    let is_welcome = is_better
+    let is_welcome = diagonal.gain(positions) > LEAST_GAIN
         && diagonal.is_flat_enough(positions)
         && can_spare_neighbours(mesh, positions, &diagonal)
         && diagonal.opposite.iter().all(|&v| mesh.valence(v) < limits.most_neighbours)

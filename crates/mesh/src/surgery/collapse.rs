@@ -38,7 +38,7 @@ impl Mesh {
                 return Err(Blocked::SmallestLoop(remove));
             }
         }
-        for w in self.neighbours(remove) {
+        for w in self.neighbours_of(remove) {
             if !is_opposite(w) && w != keep && self.are_neighbours(w, keep) {
                 return Err(Blocked::CommonNeighbour(remove, keep, w));
             }

@@ -165,7 +165,7 @@ impl Mesh {
         place.sort_unstable();
         let mut joined = vec![false; n * n];
         for (i, &w) in ring.iter().enumerate() {
-            for x in self.neighbours(w) {
+            for x in self.neighbours_of(w) {
                 if let Ok(k) = place.binary_search_by_key(&x, |&(v, _)| v) {
                     joined[i * n + place[k].1] = true;
                 }

@@ -77,7 +77,7 @@ impl Mesh {
         let mut source: Option<(EdgeId, EdgeId)> = None;
         let mut rim: Option<(EdgeId, EdgeId)> = None;
         let add = |pair: &mut Option<(EdgeId, EdgeId)>, e| *pair = Some(pair.map_or((e, e), |(a, _)| (a, e)));
-        for e in self.spokes(v) {
+        for e in self.edges_at(v) {
             if self.is_source_edge(e) {
                 tagged += 1;
                 add(&mut source, e);

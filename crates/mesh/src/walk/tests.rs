@@ -101,3 +101,35 @@ fn rings_agree_where_the_windings_do() {
     let sense = |x: usize| turned.wedges(v(x)).find(|w| w.face() == f).unwrap().agrees;
     assert_eq!(turned.do_rings_agree(e), sense(2) == sense(3));
 }
+
+#[test]
+fn rings_run_counter_clockwise_seen_from_the_side_the_faces_face() {
+    use crate::{measure, primitive};
+    for (mesh, positions) in [
+        primitive::icosphere(2),
+        primitive::torus(9, 7, 2.0, 0.8),
+        primitive::plane(4, 3, 1.0),
+        primitive::octahedron(),
+    ] {
+        let mut ring = Vec::new();
+        for v in mesh.vertices() {
+            let closed = mesh.ring(v, &mut ring);
+            assert_eq!(closed, !mesh.is_boundary_vertex(v));
+            assert_eq!(ring.len(), mesh.valence(v));
+            let here = positions[v.index()];
+            let pairs = ring.len() - usize::from(!closed);
+            let fitted: glam::DVec3 = (0..pairs)
+                .map(|k| {
+                    let [p, q] = [ring[k], ring[(k + 1) % ring.len()]].map(|w| positions[w.index()] - here);
+                    p.cross(q)
+                })
+                .sum();
+            let faces: glam::DVec3 =
+                mesh.wedges(v).map(|w| measure::face_normal(&mesh, &positions, w.face())).sum();
+            assert!(fitted.dot(faces) > 0.0 && fitted.distance(faces) < 1e-12 * faces.length());
+            for w in mesh.wedges(v) {
+                assert!(measure::face_normal(&mesh, &positions, w.face()).dot(fitted) > 0.0);
+            }
+        }
+    }
+}
