@@ -7,12 +7,10 @@ import { pixels } from "./pixels.mjs";
 /** Wide enough for the layout with panels at the sides, small enough for rendering by software. */
 export const wide = { width: 900, height: 560 };
 
-const patience = { timeout: 90_000 };
-
 /** Waits until a document is there, nothing is asked of the solver and nothing relaxes; returns the state. */
-export function atRest(page, predicate = () => true) {
+export function atRest(page, predicate = () => true, { timeout = 90_000 } = {}) {
   const rests = (state) => state?.document != null && state.settled && !state.camera.flying && predicate(state);
-  return untilInspect(page, rests, patience);
+  return untilInspect(page, rests, { timeout });
 }
 
 /** A control point of a state by its identity. */
