@@ -1,6 +1,6 @@
 //! The page itself: everything that touches the browser.
 //!
-//! One [`page::Page`] holds the state. Events come in as closures through [`act`], one at a time and never
+//! One `page::Page` holds the state. Events come in as closures through `page::act`, one at a time and never
 //! inside one another; each may change the state, and afterwards the page sends what is to be sent and asks
 //! for one picture. Nothing waits for the worker.
 

@@ -32,7 +32,7 @@ pub(crate) enum Device {
 }
 
 impl Device {
-    /// Its word for [`super::inspect`].
+    /// Its word for the inspection.
     pub(crate) fn word(self) -> &'static str {
         match self {
             Self::Starting => "starting",
