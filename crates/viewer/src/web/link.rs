@@ -72,6 +72,7 @@ fn show(link: &str, text: &str) {
     }
     let _ = field.focus();
     field.select();
+    field.set_scroll_top(0);
 }
 
 fn copy(link: &str) -> Option<Promise> {

@@ -103,7 +103,9 @@ impl Page {
         dom::text(&dom::element("figure-nodes"), &format!("{} nodes", figures.nodes));
         dom::text(&dom::element("figure-energy"), &format!("energy {:.4}", whole_zero(figures.energy)));
         dom::class(&dom::element("state-dot"), "rest", rests);
-        let state = if !self.port.is_ready() {
+        let state = if self.port.is_stopped() {
+            "stopped"
+        } else if !self.port.is_ready() {
             "starting"
         } else if rests {
             "at rest"

@@ -71,6 +71,11 @@ impl Port {
         }
     }
 
+    /// Whether there is no worker at all.
+    pub(crate) fn is_stopped(&self) -> bool {
+        self.worker.is_none()
+    }
+
     /// Whether it takes requests.
     pub(crate) fn is_ready(&self) -> bool {
         self.is_ready
