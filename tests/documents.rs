@@ -160,7 +160,7 @@ fn surfaces_with_one_side_are_welcome() {
         .map(|k| {
             let turn = 2.0 * PI * f64::from(k) / 5.0;
             let lift = if k % 2 == 0 { 0.35 } else { -0.35 };
-            format!("[{}, {}, {lift}]", turn.cos(), turn.sin())
+            format!("[{}, {}, {lift}]", libm::cos(turn), libm::sin(turn))
         })
         .collect();
     let triangles = "[[0,1,2],[1,2,3],[2,3,4],[3,4,0],[4,0,1]]";

@@ -1,5 +1,7 @@
 //! The command line: files in, files out, exit status 2 and the place for bad input.
 
+#![allow(clippy::unwrap_used, reason = "a failing test should stop where it fails")]
+
 use std::process::{Command, Output};
 
 fn ductile(arguments: &[&str]) -> Output {

@@ -122,10 +122,11 @@ impl BoundSurface {
     pub(crate) fn between(&self, a: VertexId, b: VertexId) -> Option<DVec3> {
         let node = |v: VertexId| self.compact.get(v.index()).copied().filter(|node| *node != u32::MAX);
         let (a, b) = (node(a)?, node(b)?);
-        self.solver
-            .rings()
-            .ring(a as usize)
-            .contains(&b)
+        // A fold's quadratic says nothing about the surface between: there the plain middle is safer.
+        let is_resolved =
+            |node: u32| self.solver.jacobians().nth(node as usize).is_some_and(|j| j >= RESOLVED);
+        let is_edge = self.solver.rings().ring(a as usize).contains(&b);
+        (is_edge && is_resolved(a) && is_resolved(b))
             .then(|| self.solver.place_on_edge(&self.positions, a, b))
     }
 

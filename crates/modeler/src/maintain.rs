@@ -7,7 +7,7 @@ use crate::shadow;
 use crate::shape::{CurveShape, SurfaceShape, edit};
 
 use ductile_mesh::remesh::{self, Limits, Sizing};
-use ductile_mesh::{EdgeId, Mesh, VertexId};
+use ductile_mesh::{EdgeId, Mesh};
 use ductile_solver::respace;
 use ductile_spec::{CurveId, SurfaceId};
 use glam::DVec3;

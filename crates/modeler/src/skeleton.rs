@@ -191,7 +191,7 @@ fn zip(low: &[DVec3], high: &[DVec3], shift: DVec3, start: usize, reversed: bool
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ductile_mesh::Mesh;
+    use ductile_mesh::{Mesh, summary};
     use glam::dvec3;
 
     fn polygon(n: usize, z: f64) -> Vec<(PointId, DVec3)> {
@@ -225,11 +225,11 @@ mod tests {
     fn sheets_and_sweeps_are_discs_and_cylinders() {
         for n in 3..12 {
             let sheet = sheet_skeleton(CurveId(1), &polygon(n, 0.0));
-            assert_eq!(Mesh::from_triangles(n, &sheet.triangles).unwrap().summary().euler, 1);
-            assert_eq!(Mesh::from_triangles(n, &zigzag(n)).unwrap().summary().euler, 1);
+            assert_eq!(summary(&Mesh::from_triangles(n, &sheet.triangles).unwrap()).euler, 1);
+            assert_eq!(summary(&Mesh::from_triangles(n, &zigzag(n)).unwrap()).euler, 1);
             for m in 3..9 {
                 let sweep = sweep_skeleton((CurveId(1), &polygon(n, 0.0)), (CurveId(2), &polygon(m, 1.0)));
-                let summary = Mesh::from_triangles(n + m, &sweep.triangles).unwrap().summary();
+                let summary = summary(&Mesh::from_triangles(n + m, &sweep.triangles).unwrap());
                 assert_eq!((summary.euler, summary.boundaries), (0, 2), "{n} to {m}");
             }
         }
