@@ -31,8 +31,7 @@ test("the link of an edited model opens the same model elsewhere", async () => {
     assert.ok(link.length < 2000, "a model of this size fits in a chat");
 
     const other = await session.browser.newContext({ viewport: wide });
-    const friend = await other.newPage();
-    await friend.goto(link);
+    const friend = await session.visit(link, other);
     const seen = await atRest(friend);
     assert.equal(seen.document, sent.document, "the documents are equal");
     const ratio = seen.figures.energy / sent.figures.energy;

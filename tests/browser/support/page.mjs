@@ -35,8 +35,9 @@ export async function open(options = {}) {
     context,
     server,
     complaints: [],
-    async visit(address = "") {
-      const page = await context.newPage();
+    /** Opens another page, in the same context or in one of its own. */
+    async visit(address = "", place = context) {
+      const page = await place.newPage();
       watch(page, server.url, session.complaints);
       await page.goto(new URL(address, server.url).href);
       if (options.settle !== false) await started(page);
