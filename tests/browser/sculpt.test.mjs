@@ -24,6 +24,7 @@ test("a control point follows the pointer, the shape rests, undo and redo are ex
         const state = await untilInspect(page, (now) => now.held === 7 && distance(point(now, 7).screen, to) < 3);
         assert.notEqual(state.figures.energy, before.figures.energy, "it relaxes while it is held");
         assert.equal(state.document, before.document, "nothing is committed before the release");
+        await sleeps(page);
       },
     });
     await pointAway(page);
@@ -112,7 +113,7 @@ test("a place of the boundary curve becomes a point of the curve; a double click
   await withPage(options, async (page) => {
     const before = await atRest(page);
     const from = onBareCurve(before);
-    const to = [from[0] - 20, from[1] + 30];
+    const to = [from[0] - 35, from[1] - 5];
     await assertOnCanvas(page, from, to);
     await drag(page, from, to);
     const after = await atRest(page, (state) => state.document !== before.document);
@@ -125,8 +126,8 @@ test("a place of the boundary curve becomes a point of the curve; a double click
     assert.ok(closed);
     assert.equal(after.surfaces.length, 1, "the surface still hangs on the curve");
 
-    await page.mouse.dblclick(...made.screen);
-    const free = await atRest(page, (state) => state.document !== after.document);
+    await assertOnCanvas(page, made.screen);
+    const free = await doubleClicked(page, made.screen, after.document);
     assert.ok(!JSON.parse(free.document).curves[1].through.includes(made.id), "the curve has let go of it");
     assert.ok(Math.abs(free.figures.energy / before.figures.energy - 1) < 0.02, "and has its former shape");
     assert.equal(free.surfaces[0].summary.euler, 1);
@@ -140,12 +141,33 @@ test("releasing a control of the surface lets it relax", async () => {
     const from = point(before, 7).screen;
     await drag(page, from, [from[0], from[1] - 60]);
     const pulled = await atRest(page, (state) => state.document !== before.document);
-    await page.mouse.dblclick(...point(pulled, 7).screen);
-    const after = await atRest(page, (state) => state.document !== pulled.document);
+    const after = await doubleClicked(page, point(pulled, 7).screen, pulled.document);
     assert.ok(!JSON.parse(after.document).surfaces[1].skeleton.vertices.includes(7));
     assert.ok(after.figures.energy < pulled.figures.energy - 0.5, "without the control that pulled it there is less energy");
   });
 });
+
+/** Double clicks until the document is another one: on a busy machine two clicks may come out too far apart to be one double click. */
+async function doubleClicked(page, place, document) {
+  for (let trial = 0; trial < 5; trial += 1) {
+    await page.mouse.dblclick(...place);
+    const changed = atRest(page, (state) => state.document !== document, { timeout: 5000 });
+    const state = await changed.catch(() => null);
+    if (state) return state;
+  }
+  throw new Error(`double clicked at ${place} five times in vain`);
+}
+
+/** Waits until no step is taken any more: a hand that holds still costs nothing. */
+async function sleeps(page) {
+  let steps = -1;
+  let since = 0;
+  await untilInspect(page, ({ figures }) => {
+    if (figures.steps !== steps) since = Date.now();
+    steps = figures.steps;
+    return Date.now() - since > 500;
+  });
+}
 
 /** A place of the surface far from all controls, and where to drag it. */
 function onBareSurface(state) {
@@ -155,9 +177,9 @@ function onBareSurface(state) {
   return [from, [from[0] + 15, from[1] - 80]];
 }
 
-/** A place of the boundary in front, far from all controls. */
+/** A place of the boundary at the left, far from all controls and from where toasts appear. */
 function onBareCurve(state) {
   const free = state.curves[0].screen.filter((place) => state.points.every(({ screen }) => distance(screen, place) > 30));
   assert.ok(free.length > 0);
-  return free.reduce((lowest, place) => (place[1] > lowest[1] ? place : lowest));
+  return free.reduce((first, place) => (place[0] < first[0] ? place : first));
 }
