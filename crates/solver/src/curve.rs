@@ -20,10 +20,10 @@ mod system;
 
 use glam::DVec3;
 
-use crate::error::{SolverError, check_finite, check_length, check_positions};
+use crate::error::{SolverError, check_length, check_positions};
 use crate::factor::FactorError;
-use crate::predictor::Predicted;
-use crate::surface::StepReport;
+use crate::predictor::{self, Predicted};
+use crate::report::StepReport;
 
 pub use resample::{Resampled, resample, respace};
 
@@ -334,17 +334,8 @@ impl CurveSolver {
     /// The displacement of every node: given at moved ones, zero elsewhere.
     fn checked_moves(&self, positions: &[DVec3], moves: &[(u32, DVec3)]) -> Result<Vec<DVec3>, SolverError> {
         let mut field = vec![DVec3::ZERO; self.chain.count];
-        for &(node, displacement) in moves {
-            let index = node as usize;
-            if index >= self.chain.count {
-                return Err(SolverError::UnknownNode(node));
-            }
-            if !self.fixed[index] {
-                return Err(SolverError::NotFixed(node));
-            }
-            check_finite(node, displacement)?;
-            check_finite(node, positions[index] + displacement)?;
-            field[index] = displacement;
+        for (node, displacement) in predictor::checked_moves(positions, &self.fixed, moves)? {
+            field[node as usize] = displacement;
         }
         Ok(field)
     }

@@ -148,9 +148,8 @@ impl Fits {
         for node in 0..rings.len() {
             let spokes = &mut self.spokes[rings.slots(node)];
             let chords = Chords::new(positions, node, rings.ring(node));
-            let fit = fit_node(chords.all(), rings.is_boundary(node), spokes);
-            energy += fit.energy;
-            self.nodes[node] = fit;
+            fit_node(&mut self.nodes[node], chords.all(), rings.is_boundary(node), spokes);
+            energy += self.nodes[node].energy;
         }
         self.energy = energy;
     }
@@ -167,18 +166,19 @@ pub(crate) fn basis(spoke: &Spoke, h: f64, is_boundary: bool) -> [f64; 5] {
     }
 }
 
-fn fit_node(chords: &[DVec3], is_boundary: bool, spokes: &mut [Spoke]) -> NodeFit {
-    let mut fit = NodeFit::default();
+/// Fits one node in place: a fit is half a kilobyte, too much to hand back by value.
+fn fit_node(fit: &mut NodeFit, chords: &[DVec3], is_boundary: bool, spokes: &mut [Spoke]) {
+    *fit = NodeFit::default();
     if chords.len() < 2 {
-        return fit;
+        return;
     }
     fit.frame = neighbourhood::unroll(chords, is_boundary, spokes);
     fit.jacobian = 1.0;
     fit.normal = facet_normal(chords, is_boundary);
-    fan_area(&mut fit, is_boundary, spokes);
+    fan_area(fit, is_boundary, spokes);
     // A boundary node with two neighbours is an ear: one flat triangle, no second direction to fit.
     if chords.len() == 2 || !(fit.frame.h > MIN_LENGTH) {
-        return fit;
+        return;
     }
     let (m, b) = moments(chords, is_boundary, spokes, fit.frame.h);
     let plain = if is_boundary { dense::invert::<3>(&m) } else { dense::invert::<5>(&m) };
@@ -190,9 +190,8 @@ fn fit_node(chords: &[DVec3], is_boundary: bool, spokes: &mut [Spoke]) -> NodeFi
     for (row, d) in fit.inverse.iter().zip(&mut fit.d) {
         *d = b[0] * row[0] + b[1] * row[1] + b[2] * row[2] + b[3] * row[3] + b[4] * row[4];
     }
-    derive(&mut fit);
-    fit.energy = thin_plate::value(&fit) + barrier::value(fit.jacobian);
-    fit
+    derive(fit);
+    fit.energy = thin_plate::value(fit) + barrier::value(fit.jacobian);
 }
 
 /// Normal, Jacobian and second fundamental form from the coefficients.

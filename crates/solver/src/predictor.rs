@@ -8,6 +8,7 @@ use glam::DVec3;
 
 use crate::assembly::Assembly;
 use crate::cg::{self, Limit, Outcome, Workspace};
+use crate::error::{SolverError, check_finite};
 use crate::fit::Fits;
 use crate::operator::{FIXED, Unknowns};
 use crate::precondition::Preconditioner;
@@ -133,4 +134,28 @@ pub(crate) fn strain(rings: &Rings, fits: &Fits, unknowns: &Unknowns, field: &[D
         worst = worst.max((field[from] - field[to]).length() / length);
     }
     worst
+}
+
+/// Every move once (the last one counts), in order of the nodes, checked.
+pub(crate) fn checked_moves(
+    positions: &[DVec3],
+    fixed: &[bool],
+    moves: &[(u32, DVec3)],
+) -> Result<Vec<(u32, DVec3)>, SolverError> {
+    for &(node, displacement) in moves {
+        let index = node as usize;
+        if index >= fixed.len() {
+            return Err(SolverError::UnknownNode(node));
+        }
+        if !fixed[index] {
+            return Err(SolverError::NotFixed(node));
+        }
+        check_finite(node, displacement)?;
+        check_finite(node, positions[index] + displacement)?;
+    }
+    let mut sorted = moves.to_vec();
+    sorted.reverse();
+    sorted.sort_by_key(|&(node, _)| node);
+    sorted.dedup_by_key(|&mut (node, _)| node);
+    Ok(sorted)
 }

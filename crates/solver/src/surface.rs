@@ -19,7 +19,7 @@ use glam::DVec3;
 use crate::assembly::{Assembly, Rows};
 use crate::cg::{self, Limit, Workspace};
 use crate::component::{Components, Looseness};
-use crate::error::{Budget, Settings, SolverError, check_finite, check_length, check_positions};
+use crate::error::{Budget, Settings, SolverError, check_length, check_positions};
 use crate::factor::FactorError;
 use crate::fit::{Curvature, Fits};
 use crate::gradient::gradient;
@@ -28,6 +28,7 @@ use crate::line_search;
 use crate::operator::Unknowns;
 use crate::precondition::Preconditioner;
 use crate::predictor::{self, Parts, Predicted, Predictor};
+use crate::report::StepReport;
 use crate::rings::Rings;
 use crate::smooth::{self, SmoothReport};
 
@@ -45,33 +46,6 @@ const NOISE: f64 = 1e-14;
 const DAMPING_RAISE: f64 = 10.0;
 const DAMPING_LOWER: f64 = 0.2;
 const DAMPING_MAX: f64 = 1e8;
-
-/// What one step did.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct StepReport {
-    /// Discrete energy before the step.
-    pub energy_before: f64,
-    /// Discrete energy after it; never above `energy_before`.
-    pub energy: f64,
-    /// `-s g·alpha`: the decrease the gradient promised for the accepted scale.
-    pub predicted_decrease: f64,
-    /// Largest distance a node moved.
-    pub largest_move: f64,
-    /// The same in units of the node's mean edge.
-    pub largest_relative_move: f64,
-    /// Iterations of the conjugate gradients.
-    pub cg_iterations: u32,
-    /// Their relative residual.
-    pub residual: f64,
-    /// Halvings of the line search.
-    pub halvings: u32,
-    /// Accepted scale of the direction; 0 when nothing moved.
-    pub step_scale: f64,
-    /// The shape has come to rest: further steps gain nothing worth seeing.
-    pub at_rest: bool,
-    /// The search failed: positions are as they were and the next step is damped more.
-    pub damped: bool,
-}
 
 /// Fair surfaces over one frozen connectivity.
 #[derive(Clone, Debug)]
@@ -165,7 +139,7 @@ impl SurfaceSolver {
         moves: &[(u32, DVec3)],
     ) -> Result<Predicted, SolverError> {
         check_positions(self.rings.len(), positions)?;
-        let moves = self.checked_moves(positions, moves)?;
+        let moves = predictor::checked_moves(positions, &self.fixed, moves)?;
         if moves.iter().all(|&(_, displacement)| displacement == DVec3::ZERO) {
             return Ok(Predicted { fraction: 1.0, ..Predicted::default() });
         }
@@ -395,30 +369,6 @@ impl SurfaceSolver {
             && found.halvings == 0
             && report.residual <= self.settings.step_tolerance;
         report.at_rest = is_small || self.quiet_steps >= REST_STEPS;
-    }
-
-    /// Every move once (the last one counts), in order of the nodes, checked.
-    fn checked_moves(
-        &self,
-        positions: &[DVec3],
-        moves: &[(u32, DVec3)],
-    ) -> Result<Vec<(u32, DVec3)>, SolverError> {
-        for &(node, displacement) in moves {
-            let index = node as usize;
-            if index >= self.rings.len() {
-                return Err(SolverError::UnknownNode(node));
-            }
-            if !self.fixed[index] {
-                return Err(SolverError::NotFixed(node));
-            }
-            check_finite(node, displacement)?;
-            check_finite(node, positions[index] + displacement)?;
-        }
-        let mut sorted = moves.to_vec();
-        sorted.reverse();
-        sorted.sort_by_key(|&(node, _)| node);
-        sorted.dedup_by_key(|&mut (node, _)| node);
-        Ok(sorted)
     }
 }
 
