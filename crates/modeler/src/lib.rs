@@ -1,6 +1,6 @@
 //! The model and what can be done to it: one door, [`Modeler::handle`].
 //!
-//! The document (crate `ductile-spec`) is what the designer specified; a [`shape`] is its current
+//! The document (crate `ductile-spec`) is what the designer specified; a [`SurfaceShape`] is its current
 //! approximation, a mesh that relaxes towards the fairest surface. Operations change both together, so
 //! that every act is either done whole or refused with the model as it was. The same modeler runs in the
 //! worker, in the command line and in the tests; it has no clock and no randomness.

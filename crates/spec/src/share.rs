@@ -5,7 +5,7 @@
 
 use crate::document::Document;
 use crate::text::{MAX_TEXT_BYTES, TextError, from_text, to_compact_text};
-use base64::Engine as _;
+use base64::{DecodeError, Engine as _};
 use base64::engine::general_purpose::URL_SAFE_NO_PAD;
 use miniz_oxide::deflate::compress_to_vec_zlib;
 use miniz_oxide::inflate::{TINFLStatus, decompress_to_vec_zlib_with_limit};
@@ -69,7 +69,11 @@ pub fn from_fragment(link: &str) -> Result<Document, LinkError> {
         let newer = other.into_iter().find(|key| key.starts_with("d") && key[1..].parse::<u32>().is_ok());
         return Err(newer.map_or(LinkError::Missing, |key| LinkError::Newer(key.to_owned())));
     };
-    let packed = URL_SAFE_NO_PAD.decode(code).map_err(|e| LinkError::Alphabet(e.to_string()))?;
+    let packed = URL_SAFE_NO_PAD.decode(code).map_err(|e| match e {
+        // Letters that end in the middle of a byte: most cuts show here first.
+        DecodeError::InvalidLength(_) | DecodeError::InvalidLastSymbol(..) => LinkError::Damaged("it ends early"),
+        DecodeError::InvalidByte(..) | DecodeError::InvalidPadding => LinkError::Alphabet(e.to_string()),
+    })?;
     let bytes = decompress_to_vec_zlib_with_limit(&packed, MAX_TEXT_BYTES).map_err(|e| match e.status {
         TINFLStatus::HasMoreOutput => LinkError::Damaged("it would unpack to more than any document holds"),
         TINFLStatus::Adler32Mismatch => LinkError::Damaged("its checksum is wrong"),

@@ -1,5 +1,6 @@
 //! The core in the browser, in a dedicated worker: the same bits as everywhere.
 #![cfg(target_arch = "wasm32")]
+#![allow(clippy::unwrap_used, reason = "a failing test should stop where it fails")]
 
 mod core_in_browser;
 

@@ -95,7 +95,8 @@ fn pointer(event: &PointerEvent) -> Pointer {
         device,
         at: place(event),
         modifiers: modifiers(event),
-        time: dom::now(),
+        // When the hand acted, not when a busy page came to look.
+        time: event.time_stamp(),
     }
 }
 

@@ -17,7 +17,7 @@ pub fn inspect() -> String {
     state.and_then(|text| text.as_string()).unwrap_or_default()
 }
 
-/// Brings trouble about: `lose-device`, `kill-worker`, `hang-worker`, `worker-panic`.
+/// Brings trouble about: `lose-device`, `kill-worker`, `hang-worker`.
 #[wasm_bindgen]
 pub fn provoke(what: &str) {
     let what = what.to_owned();
@@ -25,9 +25,6 @@ pub fn provoke(what: &str) {
         "lose-device" => page.stage.lose(),
         "kill-worker" => page.worker_died("it was killed"),
         "hang-worker" => page.port.silence(),
-        "worker-panic" => {
-            let _ = page.port.send_raw(&JsValue::from_str("panic"));
-        }
         _ => page.notices.refusal(&format!("“{what}” cannot be provoked.")),
     });
 }
