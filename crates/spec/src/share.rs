@@ -5,8 +5,8 @@
 
 use crate::document::Document;
 use crate::text::{MAX_TEXT_BYTES, TextError, from_text, to_compact_text};
-use base64::{DecodeError, Engine as _};
 use base64::engine::general_purpose::URL_SAFE_NO_PAD;
+use base64::{DecodeError, Engine as _};
 use miniz_oxide::deflate::compress_to_vec_zlib;
 use miniz_oxide::inflate::{TINFLStatus, decompress_to_vec_zlib_with_limit};
 use thiserror::Error;
@@ -71,7 +71,9 @@ pub fn from_fragment(link: &str) -> Result<Document, LinkError> {
     };
     let packed = URL_SAFE_NO_PAD.decode(code).map_err(|e| match e {
         // Letters that end in the middle of a byte: most cuts show here first.
-        DecodeError::InvalidLength(_) | DecodeError::InvalidLastSymbol(..) => LinkError::Damaged("it ends early"),
+        DecodeError::InvalidLength(_) | DecodeError::InvalidLastSymbol(..) => {
+            LinkError::Damaged("it ends early")
+        }
         DecodeError::InvalidByte(..) | DecodeError::InvalidPadding => LinkError::Alphabet(e.to_string()),
     })?;
     let bytes = decompress_to_vec_zlib_with_limit(&packed, MAX_TEXT_BYTES).map_err(|e| match e.status {
