@@ -34,6 +34,15 @@ impl Run {
         Self::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
     }
 
+    /// The same at low priority where the system has `nice`: for work that something else should not wait for.
+    pub(crate) fn patient_cargo() -> Self {
+        let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+        match place::program("nice") {
+            Some(nice) => Self::new(nice).args(["-n", "10"]).args([cargo]),
+            None => Self::new(cargo),
+        }
+    }
+
     pub(crate) fn args<S: AsRef<OsStr>>(mut self, args: impl IntoIterator<Item = S>) -> Self {
         self.command.args(args);
         self

@@ -5,6 +5,7 @@ use crate::shell::{Run, step};
 use crate::tools;
 use std::fs;
 use std::path::Path;
+use std::thread;
 
 /// The page with everything it loads, compressed as a server would: what a first visit costs.
 /// wgpu for WebGPU takes about 90 kB of it, the rest is ours.
@@ -40,7 +41,13 @@ impl ServeOptions {
 /// Build and serve the page, and rebuild it on every change, until interrupted.
 pub(crate) fn serve(options: &ServeOptions) -> Result<(), String> {
     let needs = if options.release { tools::RELEASE_PAGE } else { tools::PAGE };
-    tools::ensure(needs)?;
+    let is_ready = tools::are_ready(needs);
+    thread::scope(|scope| {
+        if !is_ready {
+            scope.spawn(|| build_ahead(options.release));
+        }
+        tools::ensure(needs)
+    })?;
     fetch_crates()?;
     let port = options.port.unwrap_or(8080).to_string();
     let mut arguments = vec!["serve", "--port", &port];
@@ -48,6 +55,22 @@ pub(crate) fn serve(options: &ServeOptions) -> Result<(), String> {
     arguments.extend(options.open.then_some("--open"));
     println!("Building; the page will be at http://127.0.0.1:{port}/ (Ctrl+C ends).");
     trunk(&arguments).replace()
+}
+
+/// Compile the page's two programs, as Trunk is going to, while the tools are being installed.
+///
+/// Only to save time: what goes wrong here goes wrong again when Trunk builds, and is told then.
+fn build_ahead(is_release: bool) {
+    for program in ["viewer", "worker"] {
+        let manifest = place::root().join("crates").join(program).join("Cargo.toml");
+        let build = Run::patient_cargo()
+            .args(["build", "--quiet", "--locked", "--target=wasm32-unknown-unknown", "--bin", program])
+            .args(is_release.then_some("--release"))
+            .args(["--manifest-path".as_ref(), manifest.as_os_str()]);
+        if build.lines(|_| ()).is_err() {
+            return;
+        }
+    }
 }
 
 /// Build the page for release into `dist`.

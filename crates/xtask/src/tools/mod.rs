@@ -111,6 +111,11 @@ pub(crate) fn ensure(tools: &[Tool]) -> Result<(), String> {
     }
 }
 
+/// Whether none of these is missing.
+pub(crate) fn are_ready(tools: &[Tool]) -> bool {
+    tools.iter().all(|&tool| lack(tool).is_none())
+}
+
 fn lack(tool: Tool) -> Option<(Tool, String)> {
     match tool.state() {
         State::Ready(_) => None,

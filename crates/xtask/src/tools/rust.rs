@@ -89,7 +89,9 @@ fn cargo_install<'a>(
     let profiles = optimised
         .iter()
         .flat_map(|name| ["--config".to_owned(), format!("profile.release.package.{name}.opt-level=1")]);
-    let run = Run::cargo()
+    // Trunk takes longest and ends in a row of packages that cannot be built side by side: everything else fills the gaps.
+    let cargo = if tool == Tool::Trunk { Run::cargo() } else { Run::patient_cargo() };
+    let run = cargo
         .args(["install", "--root"])
         .args([place::tools()])
         .args(what)
