@@ -97,6 +97,12 @@ impl NodeFit {
             self.d[2] * (0.5 * u * u) + self.d[3] * (u * v * FRAC_1_SQRT_2) + self.d[4] * (0.5 * v * v);
         (self.d[0] * u + self.d[1] * v) * linear + second
     }
+
+    /// The derivatives of the fitted quadratic by `u` and `v`.
+    pub(crate) fn tangents(&self, u: f64, v: f64) -> [DVec3; 2] {
+        let mixed = self.d[3] * FRAC_1_SQRT_2;
+        [self.d[0] + self.d[2] * u + mixed * v, self.d[1] + mixed * u + self.d[4] * v]
+    }
 }
 
 /// Mean and Gaussian curvature of a node.

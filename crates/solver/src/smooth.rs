@@ -14,6 +14,11 @@ const SMALLEST_MOVE: f64 = 0.01;
 /// Moves are cut at this, in the same units, where the quadratic is still a good map.
 const LARGEST_MOVE: f64 = 0.5;
 
+/// Parameter distance, in units of the local mean edge, beyond which a quadratic says nothing.
+const REACH: f64 = 1.25;
+/// Gauss-Newton steps to the foot of a place: each gains about two digits on a surface that the mesh resolves.
+const FOOT_STEPS: usize = 6;
+
 /// What a smoothing sweep did.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SmoothReport {
@@ -107,4 +112,33 @@ pub(crate) fn place_on_edge(rings: &Rings, fits: &Fits, positions: &[DVec3], a: 
         (Some(one), None) | (None, Some(one)) => middle + one,
         (None, None) => middle,
     }
+}
+
+/// The place of a node's fitted quadratic nearest to a given one: slid along the surface and lifted onto it.
+///
+/// None on the boundary, whose fit knows nothing across it, and where there is no fit or the place is out of its reach.
+pub(crate) fn place_near(
+    rings: &Rings,
+    fits: &Fits,
+    positions: &[DVec3],
+    node: u32,
+    at: DVec3,
+) -> Option<DVec3> {
+    let (centre, fit) = (positions[node as usize], &fits.nodes[node as usize]);
+    if rings.is_boundary(node as usize) || !fit.is_fitted() {
+        return None;
+    }
+    let (mut u, mut v) = (0.0, 0.0);
+    for _ in 0..FOOT_STEPS {
+        let [along_u, along_v] = fit.tangents(u, v);
+        let rest = at - centre - fit.evaluate(u, v, 1.0);
+        // Normal equations of the tangent plane at (u, v); singular only for a fold, which ends as NaN below.
+        let (a, b, c) = (along_u.length_squared(), along_u.dot(along_v), along_v.length_squared());
+        let (p, q) = (along_u.dot(rest), along_v.dot(rest));
+        let determinant = a * c - b * b;
+        u += (c * p - b * q) / determinant;
+        v += (a * q - b * p) / determinant;
+    }
+    let place = centre + fit.evaluate(u, v, 1.0);
+    (u * u + v * v <= REACH * REACH && place.is_finite()).then_some(place)
 }

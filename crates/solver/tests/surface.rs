@@ -357,6 +357,49 @@ fn new_nodes_are_lifted_onto_the_surface() {
     assert_eq!(solver.place_on_edge(&[DVec3::ZERO; 642], 0, 600), DVec3::ZERO);
 }
 
+/// Largest distance from the unit sphere of places found for the middles of facets, and of those middles themselves.
+fn errors_of_places(levels: u32) -> (f64, f64) {
+    let shape = workload::sphere(levels);
+    let mut solver = shape.solver().unwrap();
+    solver.fit_all(&shape.positions);
+    let (mut placed, mut flat) = (0.0_f64, 0.0_f64);
+    for triangle in &shape.triangles {
+        let corners = triangle.map(|node| shape.positions[node as usize]);
+        for (node, weights) in [(triangle[0], [0.4, 0.3, 0.3]), (triangle[1], [0.1, 0.6, 0.3])] {
+            let at = (0..3).map(|k| corners[k] * weights[k]).sum::<DVec3>();
+            let place = solver.place_near(&shape.positions, node, at).unwrap();
+            placed = placed.max((place.length() - 1.0).abs());
+            flat = flat.max((at.length() - 1.0).abs());
+            // It is the foot of `at`: what is under the pointer stays under it.
+            assert!((place - at).cross(at).length() < 0.1 * (1.0 - at.length()), "{place} for {at}");
+        }
+    }
+    (placed, flat)
+}
+
+#[test]
+fn a_place_near_a_node_is_on_the_surface_to_second_order() {
+    let [(coarse, _), (fine, flat)] = [3, 4].map(errors_of_places);
+    // Half the edge: an eighth or less of the error is left, and far less than the facet's own.
+    assert!(fine < coarse / 7.0, "{coarse} and {fine}");
+    assert!(fine < 0.05 * flat, "{fine} of {flat}");
+}
+
+#[test]
+fn a_place_out_of_reach_or_on_the_boundary_has_no_foot() {
+    let shape = workload::disc(5);
+    let mut solver = shape.solver().unwrap();
+    solver.fit_all(&shape.positions);
+    let near = DVec3::new(0.07, 0.02, 0.01);
+    let foot = solver.place_near(&shape.positions, 0, near).unwrap();
+    assert!(foot.distance(DVec3::new(0.07, 0.02, 0.0)) < 1e-12, "{foot}");
+    let rim = u32::try_from(shape.positions.len() - 1).unwrap();
+    assert_eq!(solver.place_near(&shape.positions, rim, shape.positions[rim as usize]), None);
+    for far in [DVec3::X, DVec3::NAN, DVec3::splat(f64::INFINITY)] {
+        assert_eq!(solver.place_near(&shape.positions, 0, far), None);
+    }
+}
+
 #[test]
 fn changing_the_fixed_nodes_takes_effect() {
     let shape = workload::disc(5);
