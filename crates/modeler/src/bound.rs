@@ -120,14 +120,21 @@ impl BoundSurface {
     /// The middle of two vertices on the fitted surface, if both had a fit when the solver was bound. (A slot
     /// that was given to a new vertex since then has no neighbour here, and the plain middle comes out.)
     pub(crate) fn between(&self, a: VertexId, b: VertexId) -> Option<DVec3> {
-        let node = |v: VertexId| self.compact.get(v.index()).copied().filter(|node| *node != u32::MAX);
-        let (a, b) = (node(a)?, node(b)?);
-        // A fold's quadratic says nothing about the surface between: there the plain middle is safer.
-        let is_resolved =
-            |node: u32| self.solver.jacobians().nth(node as usize).is_some_and(|j| j >= RESOLVED);
+        let (a, b) = (self.resolved(a)?, self.resolved(b)?);
         let is_edge = self.solver.rings().ring(a as usize).contains(&b);
-        (is_edge && is_resolved(a) && is_resolved(b))
-            .then(|| self.solver.place_on_edge(&self.positions, a, b))
+        is_edge.then(|| self.solver.place_on_edge(&self.positions, a, b))
+    }
+
+    /// The place of the fitted surface around a vertex nearest to a given one, if that vertex has a fit that tells.
+    pub(crate) fn near(&self, v: VertexId, at: DVec3) -> Option<DVec3> {
+        self.resolved(v).and_then(|node| self.solver.place_near(&self.positions, node, at))
+    }
+
+    /// The node of a vertex that was there when the solver was bound and whose ring the mesh resolves: a fold's
+    /// quadratic says nothing about the surface around, and what is plain is safer there.
+    fn resolved(&self, v: VertexId) -> Option<u32> {
+        let node = self.compact.get(v.index()).copied().filter(|node| *node != u32::MAX)?;
+        self.solver.jacobians().nth(node as usize).filter(|j| *j >= RESOLVED).map(|_| node)
     }
 
     /// Moves free vertices towards even spacing; returns whether any moved noticeably.

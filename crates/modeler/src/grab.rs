@@ -7,6 +7,7 @@
 use crate::error::ModelError;
 use crate::model::Model;
 use crate::operation::{insert, kept_position, pin};
+use crate::relax::Relaxer;
 use ductile_spec::{GrabTarget, MAX_COORDINATE, PointId};
 use glam::DVec3;
 
@@ -42,15 +43,15 @@ impl Grab {
     /// Takes hold; a place on a curve or surface becomes a control point.
     pub(crate) fn begin(
         model: &mut Model,
+        relaxer: &Relaxer,
         target: GrabTarget,
-        energy_before: f64,
     ) -> Result<Self, ModelError> {
         let before = model.clone();
         let (centre, radius) = model.document.extent();
         let point = match target {
             GrabTarget::Point(point) => model.point(point).map(|_| point)?,
             GrabTarget::Curve { curve, at } => insert(model, curve, at)?,
-            GrabTarget::Surface { surface, at } => pin(model, surface, at)?,
+            GrabTarget::Surface { surface, at } => pin(model, relaxer, surface, at)?,
         };
         let is_new = !matches!(target, GrabTarget::Point(_));
         let reach = REACH * if radius > 0.0 { radius } else { 1.0 };
@@ -62,7 +63,7 @@ impl Grab {
             has_moved: false,
             before,
             home,
-            energy_before,
+            energy_before: relaxer.energy(),
             steps_since_return,
             centre,
             reach,

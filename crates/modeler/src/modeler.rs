@@ -152,7 +152,7 @@ impl Modeler {
             return Err(ModelError::Dragging);
         }
         let before = self.model.clone();
-        match operation::apply(&mut self.model, edit) {
+        match operation::apply(&mut self.model, &self.relaxer, edit) {
             Ok(()) => {
                 self.history.record(edit.label(), before);
                 self.relaxer.wake();
@@ -170,8 +170,7 @@ impl Modeler {
             return Err(ModelError::Dragging);
         }
         let before = self.model.clone();
-        let energy = self.relaxer.energy();
-        match Grab::begin(&mut self.model, target, energy) {
+        match Grab::begin(&mut self.model, &self.relaxer, target) {
             Ok(grab) => {
                 let at = self.model.point(grab.point).unwrap_or(DVec3::ZERO);
                 let grabbed = Grabbed { point: grab.point, at };

@@ -1,7 +1,9 @@
-//! `insert`: a control point on a curve (thesis section 7.3.6, `ray-intersect-curve`).
+//! `insert`: a control point on a curve (thesis section 7.3.6, `ray-intersect-curve`). It stands exactly where it was
+//! pointed at: the nearest free sample slides there along the curve.
 
 use crate::error::ModelError;
 use crate::model::Model;
+use crate::operation::slide::slide;
 use crate::operation::{kept_position, refresh_skeleton};
 use crate::shadow;
 use crate::shape::{CurveShape, edit};
@@ -9,21 +11,24 @@ use ductile_mesh::SourceTag;
 use ductile_spec::{CurveId, PointId};
 use glam::DVec3;
 
+/// Part of an edge that a new control keeps from a control at the end: nearer, every triangle between would be a needle.
+const ROOM: f64 = 0.25;
+
 /// Makes a control point at the place of a curve nearest to a given one. The shape does not change by it.
 pub(crate) fn insert(model: &mut Model, id: CurveId, at: DVec3) -> Result<PointId, ModelError> {
     let at = kept_position(model, at)?;
     let shape = model.curves.get(&id).ok_or(ModelError::NoCurve(id))?;
     let (edge, t) = shape.nearest(at).ok_or(ModelError::NoCurve(id))?;
+    let place = kept_position(model, shape.place(edge, with_room(shape, edge, t)))?;
     let sample = free_sample(model, id, edge, t)?;
     let point = model.document.next_point();
     let revision = model.next_revision();
     let shape = edit(model.curves.get_mut(&id).ok_or(ModelError::NoCurve(id))?);
-    let place = shape.nodes[sample];
+    shape.nodes[sample] = place;
     let rank = rank_of(shape, sample);
     shape.controls.push((u32::try_from(sample).unwrap_or(u32::MAX), point));
     shape.controls.sort_unstable();
     shape.revision = revision;
-    let place = kept_position(model, place)?;
     let document = model.document_mut();
     document.points.insert(point, place);
     if let Some(curve) = document.curves.get_mut(&id) {
@@ -31,8 +36,11 @@ pub(crate) fn insert(model: &mut Model, id: CurveId, at: DVec3) -> Result<PointI
     }
     for surface in model.document.surfaces_on(id).collect::<Vec<_>>() {
         if let Some(shape) = model.surfaces.get_mut(&surface).map(edit) {
-            for embedded in shape.embeddings.iter().filter(|e| e.curve == id) {
-                shape.mesh.set_vertex_source(embedded.vertices[sample], Some(SourceTag(point.0)));
+            let on_curve = shape.embeddings.iter().filter(|e| e.curve == id);
+            for vertex in on_curve.map(|e| e.vertices[sample]).collect::<Vec<_>>() {
+                shape.mesh.set_vertex_source(vertex, Some(SourceTag(point.0)));
+                // Where its triangles do not bear that, the relaxer carries it, and all that is around, by and by.
+                let _ = slide(shape, vertex, place);
             }
         }
         refresh_skeleton(model, surface);
@@ -44,6 +52,14 @@ pub(crate) fn insert(model: &mut Model, id: CurveId, at: DVec3) -> Result<PointI
 /// Where a new control at a sample stands among the points of the curve.
 fn rank_of(shape: &CurveShape, sample: usize) -> usize {
     shape.controls.iter().filter(|(index, _)| (*index as usize) < sample).count()
+}
+
+/// The parameter on an edge, moved away from an end that is a control.
+fn with_room(shape: &CurveShape, edge: usize, t: f64) -> f64 {
+    let (a, b) = shape.edge(edge);
+    let low = if shape.is_control(a) { ROOM } else { 0.0 };
+    let high = if shape.is_control(b) { 1.0 - ROOM } else { 1.0 };
+    t.clamp(low, high)
 }
 
 /// The sample nearest to a place on an edge that is no control yet; the edge is split if both ends are.

@@ -8,10 +8,12 @@ mod pin;
 mod point;
 mod release;
 mod sheet;
+mod slide;
 mod sweep;
 
 use crate::error::ModelError;
 use crate::model::Model;
+use crate::relax::Relaxer;
 use ductile_spec::{Edit, MAX_COORDINATE, PointId, SurfaceId};
 use glam::DVec3;
 use std::sync::Arc;
@@ -23,11 +25,11 @@ pub(crate) use pin::pin;
 /// A millionth of the model is finer than a pixel and keeps links short.
 const POSITION_DIGITS: i32 = 6;
 
-/// Does an act.
+/// Does an act. The relaxer knows the fitted surface between the vertices.
 ///
 /// # Errors
 /// [`ModelError`] says why it cannot be done; the model may then be half changed and must be dropped.
-pub(crate) fn apply(model: &mut Model, edit: &Edit) -> Result<(), ModelError> {
+pub(crate) fn apply(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result<(), ModelError> {
     match edit {
         Edit::Point { at } => point::place(model, *at).map(drop),
         Edit::Move { point, to } => point::shift(model, *point, *to),
@@ -35,7 +37,7 @@ pub(crate) fn apply(model: &mut Model, edit: &Edit) -> Result<(), ModelError> {
         Edit::Draw { at, closed } => curve::draw(model, at, *closed),
         Edit::Sheet { boundary } => sheet::sheet(model, *boundary),
         Edit::Sweep { from, to } => sweep::sweep(model, *from, *to),
-        Edit::Pin { surface, at } => pin(model, *surface, *at).map(drop),
+        Edit::Pin { surface, at } => pin(model, relaxer, *surface, *at).map(drop),
         Edit::Insert { curve, at } => insert(model, *curve, *at).map(drop),
         Edit::Release { point } => release::release(model, *point),
         Edit::DeletePoint { point } => delete::point(model, *point),

@@ -1,23 +1,41 @@
 //! `pin`: a control point on a surface (thesis section 7.3.6, `ray-intersect-surface`).
+//!
+//! The control stands exactly where it was pointed at: the place on the facets is lifted onto the fitted surface, and
+//! the nearest free vertex slides there. Where its triangles would not bear that, a new vertex is made at the place;
+//! where that makes needles too, hard by another control or curve, the nearest vertex goes as far towards it as it can.
 
+use crate::bound::BoundSurface;
 use crate::error::ModelError;
 use crate::model::Model;
+use crate::operation::slide::{SHARP, least_angle_around, slide};
 use crate::operation::{kept_position, refresh_skeleton};
+use crate::relax::Relaxer;
 use crate::shape::{Pin, SurfaceShape, edit};
 use ductile_mesh::{FaceId, SourceTag, VertexId};
 use ductile_spec::{PointId, SurfaceId};
 use glam::DVec3;
 
-/// A vertex this near to the wanted place, as a part of the spacing, becomes the control point itself.
-const NEAR: f64 = 0.75;
+/// Nearer than this to a control, as a part of the spacing, there is no room for another.
+const OCCUPIED: f64 = 0.05;
+/// Parts of a way that is too long, tried in this order.
+const PARTS: [f64; 4] = [0.75, 0.5, 0.25, 0.125];
 
 /// Makes a control point at the place of a surface nearest to a given one.
-pub(crate) fn pin(model: &mut Model, surface: SurfaceId, at: DVec3) -> Result<PointId, ModelError> {
+pub(crate) fn pin(
+    model: &mut Model,
+    relaxer: &Relaxer,
+    surface: SurfaceId,
+    at: DVec3,
+) -> Result<PointId, ModelError> {
     let at = kept_position(model, at)?;
+    let shape = model.surfaces.get(&surface).ok_or(ModelError::NoSurface(surface))?;
+    let bound = relaxer.surface(surface, shape);
+    let (face, place) = place_on(shape, bound, at).ok_or(ModelError::Occupied)?;
+    let place = kept_position(model, place)?;
     let id = model.document.next_point();
     let revision = model.next_revision();
     let shape = edit(model.surfaces.get_mut(&surface).ok_or(ModelError::NoSurface(surface))?);
-    let vertex = vertex_at(shape, at)?;
+    let vertex = vertex_at(shape, bound, face, place)?;
     shape.mesh.set_vertex_source(vertex, Some(SourceTag(id.0)));
     shape.pins.push(Pin { vertex, point: id });
     shape.revision = revision;
@@ -29,38 +47,102 @@ pub(crate) fn pin(model: &mut Model, surface: SurfaceId, at: DVec3) -> Result<Po
     Ok(id)
 }
 
-/// The free vertex at a place: the nearest one, or a new one in the nearest face.
-fn vertex_at(shape: &mut SurfaceShape, at: DVec3) -> Result<VertexId, ModelError> {
-    let distance = |shape: &SurfaceShape, v: VertexId| (shape.positions[v.index()] - at).length();
-    let is_free = |shape: &SurfaceShape, v: VertexId| {
-        !shape.mesh.is_source_vertex(v) && !shape.mesh.is_on_source_curve(v)
-    };
-    let mut nearest: Option<(f64, VertexId)> = None;
-    for v in shape.mesh.vertices() {
-        if is_free(shape, v) && !shape.mesh.is_boundary_vertex(v) {
-            let d = distance(shape, v);
-            if nearest.is_none_or(|(least, _)| d < least) {
-                nearest = Some((d, v));
-            }
+/// The facet nearest to a place, and the place of the fitted surface over it: the mean of what the quadratics of
+/// the facet's corners say, each by its share. The facet's own where there is no fit.
+fn place_on(shape: &SurfaceShape, bound: Option<&BoundSurface>, at: DVec3) -> Option<(FaceId, DVec3)> {
+    let (face, flat) = nearest_face(shape, at)?;
+    let Some(bound) = bound else { return Some((face, flat)) };
+    let corners = shape.mesh.face_vertices(face);
+    let [a, b, c] = corners.map(|v| shape.positions[v.index()]);
+    let normal = (b - a).cross(c - a);
+    // Shares of the whole area; a facet without area has none, and the flat place comes out.
+    let share = |p: DVec3, q: DVec3| (p - flat).cross(q - flat).dot(normal).max(0.0);
+    let (mut sum, mut total) = (DVec3::ZERO, 0.0);
+    for (v, share) in corners.into_iter().zip([share(b, c), share(c, a), share(a, b)]) {
+        if let Some(place) = bound.near(v, flat).filter(|place| place.distance(flat) < shape.spacing) {
+            sum += place * share;
+            total += share;
         }
     }
-    if let Some((d, v)) = nearest
-        && d <= NEAR * shape.spacing
-    {
-        return Ok(v);
-    }
-    let (face, place) = nearest_face(shape, at).ok_or(ModelError::Occupied)?;
-    let too_near = shape.mesh.face_vertices(face).iter().any(|v| {
-        shape.mesh.is_source_vertex(*v)
-            && (shape.positions[v.index()] - place).length() < 0.05 * shape.spacing
-    });
-    if too_near {
+    Some((face, if total > 0.0 { sum / total } else { flat }))
+}
+
+/// The vertex that becomes the control at a place of the surface: it is there, or as near as the triangles allow.
+fn vertex_at(
+    shape: &mut SurfaceShape,
+    bound: Option<&BoundSurface>,
+    face: FaceId,
+    place: DVec3,
+) -> Result<VertexId, ModelError> {
+    let corners = shape.mesh.face_vertices(face);
+    let distance = |shape: &SurfaceShape, v: VertexId| shape.positions[v.index()].distance(place);
+    let is_taken =
+        |v: &VertexId| shape.mesh.is_source_vertex(*v) && distance(shape, *v) < OCCUPIED * shape.spacing;
+    if corners.iter().any(is_taken) {
         return Err(ModelError::Occupied);
     }
-    let v = shape.mesh.split_face(face);
-    shape.positions.resize(shape.mesh.vertex_slots(), place);
-    shape.positions[v.index()] = place;
-    Ok(v)
+    let is_free = |v: &VertexId| {
+        let mesh = &shape.mesh;
+        !mesh.is_source_vertex(*v) && !mesh.is_on_source_curve(*v) && !mesh.is_boundary_vertex(*v)
+    };
+    let mut free: Vec<VertexId> = corners.into_iter().filter(is_free).collect();
+    free.sort_by(|a, b| distance(shape, *a).total_cmp(&distance(shape, *b)));
+    if let Some(v) = free.iter().find(|v| slide(shape, **v, place)) {
+        return Ok(*v);
+    }
+    let (mut split, mut new) = with_new_vertex(shape, face, place);
+    let Some(nearest) = free.first() else {
+        // Every corner is held: inwards there is most room.
+        let middle = corners.iter().map(|v| shape.positions[v.index()]).sum::<DVec3>() / 3.0;
+        for part in PARTS.into_iter().chain([0.0]) {
+            if least_angle_around(&split, new) >= SHARP {
+                break;
+            }
+            (split, new) = with_new_vertex(shape, face, middle.lerp(place, part));
+        }
+        *shape = split;
+        return Ok(new);
+    };
+    if least_angle_around(&split, new) >= SHARP {
+        *shape = split;
+        return Ok(new);
+    }
+    approach(shape, bound, *nearest, place);
+    Ok(*nearest)
+}
+
+/// Moves a vertex towards a place of the surface, as far as its triangles allow.
+fn approach(shape: &mut SurfaceShape, bound: Option<&BoundSurface>, v: VertexId, place: DVec3) {
+    let from = shape.positions[v.index()];
+    for part in PARTS {
+        let part = from.lerp(place, part);
+        let to = bound.and_then(|bound| bound.near(v, part)).unwrap_or(part);
+        if slide(shape, v, to) {
+            return;
+        }
+    }
+}
+
+/// The shape with a new vertex at a place of a face: on its nearest edge if that makes the better triangles.
+fn with_new_vertex(shape: &SurfaceShape, face: FaceId, place: DVec3) -> (SurfaceShape, VertexId) {
+    let put = |split: &dyn Fn(&mut SurfaceShape) -> VertexId| {
+        let mut shape = shape.clone();
+        let v = split(&mut shape);
+        shape.positions.resize(shape.mesh.vertex_slots(), place);
+        shape.positions[v.index()] = place;
+        (least_angle_around(&shape, v), shape, v)
+    };
+    let (mut best, mut split, mut vertex) = put(&|shape| shape.mesh.split_face(face));
+    for edge in shape.mesh.face_edges(face) {
+        if shape.mesh.is_boundary_edge(edge) || shape.mesh.edge_source(edge).is_some() {
+            continue;
+        }
+        let (angle, other, v) = put(&|shape| shape.mesh.split_edge(edge));
+        if angle > best {
+            (best, split, vertex) = (angle, other, v);
+        }
+    }
+    (split, vertex)
 }
 
 fn nearest_face(shape: &SurfaceShape, at: DVec3) -> Option<(FaceId, DVec3)> {
