@@ -194,6 +194,8 @@ fn check_corners(vertex_count: usize, triangles: &[[u32; 3]]) -> Result<(), Buil
 #[cfg(test)]
 mod tests {
     use super::*;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
 
     fn v(i: u32) -> VertexId {
         VertexId(i)

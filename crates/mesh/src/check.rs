@@ -225,6 +225,8 @@ fn check_duplicates(mesh: &Mesh, defects: &mut Vec<Defect>) {
 mod tests {
     use super::*;
     use crate::SourceTag;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
 
     fn strip() -> Mesh {
         Mesh::from_triangles(5, &[[0, 1, 2], [2, 1, 3], [2, 3, 4]]).unwrap()

@@ -118,6 +118,8 @@ impl Forest {
 mod tests {
     use super::*;
     use crate::{SourceTag, VertexId, primitive};
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
 
     #[test]
     fn two_pieces_are_two_components() {

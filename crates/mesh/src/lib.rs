@@ -28,6 +28,8 @@ mod label;
 pub mod measure;
 mod orient;
 pub mod primitive;
+#[cfg(test)]
+mod property_test;
 pub mod remesh;
 mod source;
 mod surgery;

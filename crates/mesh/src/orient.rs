@@ -76,6 +76,8 @@ pub fn reverse_face(mesh: &mut Mesh, f: FaceId) {
 mod tests {
     use super::*;
     use crate::{primitive, validate};
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
 
     #[test]
     fn one_sided_surfaces_are_known() {

@@ -67,6 +67,8 @@ impl Mesh {
 #[cfg(test)]
 mod tests {
     use super::*;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
 
     #[test]
     fn tags_are_set_read_and_cleared() {

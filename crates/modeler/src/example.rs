@@ -109,6 +109,8 @@ fn add_surface(
 #[cfg(test)]
 mod tests {
     use super::*;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
 
     #[test]
     fn every_example_is_valid_and_fits_in_a_short_link() {

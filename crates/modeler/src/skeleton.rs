@@ -193,6 +193,8 @@ mod tests {
     use super::*;
     use ductile_mesh::{Mesh, summary};
     use glam::dvec3;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
 
     fn polygon(n: usize, z: f64) -> Vec<(PointId, DVec3)> {
         let turn = core::f64::consts::TAU / n as f64;

@@ -80,6 +80,8 @@ pub(crate) fn append_polyline(segments: &mut Vec<Segment>, first: u32, count: u3
 #[cfg(test)]
 mod tests {
     use super::*;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
 
     fn polyline(count: u32, closed: bool) -> Vec<[u32; 4]> {
         let mut segments = Vec::new();

@@ -55,6 +55,8 @@ impl Future for Loss {
 #[cfg(test)]
 mod tests {
     use super::*;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
 
     #[test]
     fn news_arrive_whenever_they_are_told() {

@@ -270,6 +270,8 @@ mod tests {
     use super::*;
     use crate::sample::{self, frame_of};
     use ductile_spec::{CurveRole, SurfaceId};
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
 
     #[test]
     fn empty_scene_copes() {

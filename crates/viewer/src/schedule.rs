@@ -245,6 +245,8 @@ pub fn label(request: &Request) -> &'static str {
 mod tests {
     use super::*;
     use ductile_spec::PointId;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
 
     const HOLD: GrabTarget = GrabTarget::Point(PointId(1));
 

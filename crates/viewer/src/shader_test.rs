@@ -1,4 +1,7 @@
 //! Checks the shaders without a device: they are valid, and their structures are those of this crate.
+//!
+//! Native only: the shaders are the same bytes everywhere, and the checker is large.
+#![cfg(not(target_arch = "wasm32"))]
 
 use crate::background_pass::{BACKGROUND_SHADER, GRID_SHADER};
 use crate::curve_pass::CURVE_SHADER;

@@ -163,6 +163,8 @@ mod tests {
     use super::*;
     use crate::sample;
     use ductile_spec::CurveId;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
 
     #[test]
     fn points_are_marked_from_back_to_front() {

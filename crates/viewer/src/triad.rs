@@ -93,6 +93,8 @@ fn toned(theme: &Theme, axis: usize, nearness: f32) -> Vec4 {
 mod tests {
     use super::*;
     use glam::Vec3;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
 
     #[test]
     fn ends_are_clickable_and_the_front_one_wins() {

@@ -22,10 +22,11 @@ pub(crate) fn run() -> Result<(), String> {
         Run::cargo().args(arguments).attached()
     });
     tally += check("lints for the browser", || {
-        let what =
-            ["clippy", "--target", "wasm32-unknown-unknown", "-p", "ductile-worker", "-p", "ductile-viewer"];
+        let what = ["clippy", "--target", "wasm32-unknown-unknown"];
+        let members = ["spec", "mesh", "solver", "modeler", "worker", "viewer"];
+        let members = members.map(|member| format!("--package=ductile-{member}"));
         let how = ["--all-targets", "--locked", "--", "-D", "warnings"];
-        Run::cargo().args(what).args(how).attached()
+        Run::cargo().args(what).args(members).args(how).attached()
     });
     tally += check("documentation", || {
         let arguments = ["doc", "--workspace", "--no-deps", "--locked"];

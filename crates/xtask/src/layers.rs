@@ -195,7 +195,7 @@ mod tests {
         assert_eq!(complaints, ["crates/solver/src/cg.rs:2 asks whether it runs in the browser"]);
         assert!(browser_questions(Path::new("crates/worker/src/main.rs"), text).is_empty());
         assert!(browser_questions(Path::new("crates/viewer/src/web/canvas.rs"), text).is_empty());
-        assert!(browser_questions(Path::new("crates/mesh/tests/wasm_core.rs"), text).is_empty());
+        assert!(browser_questions(Path::new("crates/mesh/tests/core.rs"), text).is_empty());
         let only_in_tests =
             "fn f() {}\n\n#[cfg(test)]\nmod tests {\n    #[cfg_attr(target_arch = \"wasm32\", x)]\n}\n";
         assert!(browser_questions(Path::new("crates/mesh/src/flip.rs"), only_in_tests).is_empty());

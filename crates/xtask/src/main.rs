@@ -18,6 +18,7 @@ mod sizes;
 mod tally;
 mod test;
 mod tools;
+mod wasm;
 mod web;
 
 use std::process::ExitCode;

@@ -4,14 +4,15 @@ use crate::place;
 use crate::shell::Run;
 use serde_json::Value;
 use std::fs;
+use std::path::PathBuf;
 
 /// A member of the workspace.
 #[derive(Debug)]
 pub(crate) struct Package {
     pub(crate) name: String,
+    /// Where it lies, relative to the top.
+    pub(crate) folder: PathBuf,
     pub(crate) dependencies: Vec<Dependency>,
-    /// Names of the integration tests.
-    pub(crate) tests: Vec<String>,
 }
 
 /// A declared dependency of a member, on another member or on a library from outside.
@@ -41,10 +42,10 @@ fn parse_package(package: &Value) -> Package {
     let dependencies = list("dependencies")
         .map(|entry| Dependency { name: text(&entry["name"]), is_dev: entry["kind"] == "dev" })
         .collect();
-    let is_test =
-        |target: &&Value| target["kind"].as_array().is_some_and(|kinds| kinds.iter().any(|k| k == "test"));
-    let tests = list("targets").filter(is_test).map(|target| text(&target["name"])).collect();
-    Package { name: text(&package["name"]), dependencies, tests }
+    let manifest = PathBuf::from(text(&package["manifest_path"]));
+    let folder = manifest.parent().unwrap_or(&manifest);
+    let folder = folder.strip_prefix(place::root()).unwrap_or(folder).to_owned();
+    Package { name: text(&package["name"]), folder, dependencies }
 }
 
 fn text(value: &Value) -> String {
@@ -65,16 +66,19 @@ fn version_in_lock(lock: &str, package: &str) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::{parse_metadata, version_in_lock};
+    use crate::place;
+    use std::path::Path;
 
     #[test]
-    fn metadata_gives_dependencies_and_tests() {
-        let json = r#"{ "packages": [ { "name": "worker",
-            "dependencies": [ { "name": "spec", "kind": null }, { "name": "proptest", "kind": "dev" } ],
-            "targets": [ { "name": "worker", "kind": ["bin"] }, { "name": "wasm_door", "kind": ["test"] } ] } ] }"#;
-        let packages = parse_metadata(json).unwrap();
+    fn metadata_gives_place_and_dependencies() {
+        let manifest = place::root().join("crates/worker/Cargo.toml");
+        let json = r#"{ "packages": [ { "name": "worker", "manifest_path": MANIFEST,
+            "dependencies": [ { "name": "spec", "kind": null }, { "name": "proptest", "kind": "dev" } ] } ] }"#;
+        let json = json.replace("MANIFEST", &serde_json::to_string(&manifest).unwrap());
+        let packages = parse_metadata(&json).unwrap();
         let worker = &packages[0];
         assert_eq!(worker.name, "worker");
-        assert_eq!(worker.tests, ["wasm_door"]);
+        assert_eq!(worker.folder, Path::new("crates/worker"));
         let kinds: Vec<_> = worker.dependencies.iter().map(|d| (d.name.as_str(), d.is_dev)).collect();
         assert_eq!(kinds, [("spec", false), ("proptest", true)]);
     }

@@ -40,7 +40,11 @@ pub(crate) fn lines_without_tests(text: &str) -> usize {
 pub(crate) fn is_test_file(file: &Path) -> bool {
     let in_test_folder =
         file.components().any(|part| part.as_os_str() == "tests" || part.as_os_str() == "benches");
-    in_test_folder || file.file_name().is_some_and(|name| name == "tests.rs")
+    in_test_folder
+        || file
+            .file_stem()
+            .and_then(|stem| stem.to_str())
+            .is_some_and(|stem| stem == "tests" || stem.ends_with("_test"))
 }
 
 /// The Rust sources of all members, relative to the top, sorted.
@@ -89,7 +93,7 @@ mod tests {
     #[test]
     fn test_files_are_known_by_their_place() {
         assert!(is_test_file(Path::new("crates/mesh/src/topology/tests.rs")));
-        assert!(is_test_file(Path::new("crates/worker/tests/wasm_page.rs")));
+        assert!(is_test_file(Path::new("crates/worker/tests/core_in_browser.rs")));
         assert!(is_test_file(Path::new("crates/solver/benches/step.rs")));
         assert!(!is_test_file(Path::new("crates/xtask/src/test.rs")));
     }

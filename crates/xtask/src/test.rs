@@ -1,10 +1,10 @@
 //! Running every test and adding up.
 
 use crate::place;
-use crate::project;
 use crate::shell::{Run, step};
 use crate::tally::Tally;
 use crate::tools;
+use crate::wasm;
 use crate::web;
 use std::fs;
 
@@ -13,7 +13,7 @@ use std::fs;
 pub(crate) enum Suite {
     /// Unit, property, fixture and documentation tests.
     Native,
-    /// The `tests/wasm_*.rs` of all members, in the page and in workers of a headless Chromium.
+    /// The tests of the core once more, in the page and in a worker of a headless Chromium.
     Wasm,
     /// The release build of the page, driven by the end-to-end tests.
     Page,
@@ -22,8 +22,7 @@ pub(crate) enum Suite {
 /// Every test.
 pub(crate) const ALL: &[Suite] = &[Suite::Native, Suite::Wasm, Suite::Page];
 
-/// Seconds that one wasm test, or one end-to-end test, may take: a software rasteriser on a busy machine is slow.
-const WASM_TEST_LIMIT: &str = "120";
+/// What one end-to-end test may take: a software rasteriser on a busy machine is slow.
 const PAGE_TEST_LIMIT: &str = "--test-timeout=180000";
 
 /// `cargo xtask test`: the last line is the total.
@@ -61,7 +60,7 @@ pub(crate) fn suites(chosen: &[Suite]) -> Tally {
         return tally;
     }
     if chosen.contains(&Suite::Wasm) {
-        tally += wasm();
+        tally += wasm::tests();
     }
     if chosen.contains(&Suite::Page) {
         tally += page();
@@ -70,42 +69,11 @@ pub(crate) fn suites(chosen: &[Suite]) -> Tally {
 }
 
 fn native() -> Tally {
-    counted("native tests", || Ok(Run::cargo().args(["test", "--workspace", "--locked", "--no-fail-fast"])))
-}
-
-fn wasm() -> Tally {
-    let packages = match project::packages() {
-        Ok(packages) => packages,
-        Err(message) => return broken("the wasm tests cannot be listed", &message),
-    };
-    let has_wasm_tests =
-        |package: &&project::Package| package.tests.iter().any(|test| test.starts_with("wasm_"));
-    let selection: Vec<String> = packages
-        .iter()
-        .filter(has_wasm_tests)
-        .flat_map(|package| ["-p".to_owned(), package.name.clone()])
-        .collect();
-    if selection.is_empty() {
-        println!("\n== wasm tests: there are none");
-        return Tally::default();
-    }
-    counted("wasm tests", || {
-        let (settings, driver) = tools::webdriver()?;
-        Ok(Run::cargo()
-            .args([
-                "test",
-                "--target",
-                "wasm32-unknown-unknown",
-                "--locked",
-                "--no-fail-fast",
-                "--test",
-                "wasm_*",
-            ])
-            .args(&selection)
-            .env("CHROMEDRIVER", driver)
-            .env("WASM_BINDGEN_TEST_WEBDRIVER_JSON", settings)
-            .env("WASM_BINDGEN_TEST_TIMEOUT", WASM_TEST_LIMIT))
-    })
+    counted(
+        "native tests",
+        |_| (),
+        || Ok(Run::cargo().args(["test", "--workspace", "--locked", "--no-fail-fast"])),
+    )
 }
 
 fn page() -> Tally {
@@ -113,32 +81,41 @@ fn page() -> Tally {
     if let Err(message) = web::build(&page) {
         return broken("the page cannot be built", &message);
     }
-    counted("end-to-end tests", || {
-        let mut files: Vec<String> = fs::read_dir(place::browser_tests())
-            .map_err(|error| error.to_string())?
-            .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
-            .filter(|name| name.ends_with(".test.mjs"))
-            .collect();
-        files.sort();
-        let browser = tools::chromium().ok_or("no Chromium found")?;
-        // One file at a time: the software rasteriser takes a whole core and more.
-        Ok(Run::new("node")
-            .args(["--test", "--test-reporter=spec", "--test-concurrency=1", PAGE_TEST_LIMIT])
-            .args(files)
-            .within(&place::browser_tests())
-            .env("CHROME", browser)
-            .env("DUCTILE_PAGE", page))
-    })
+    counted(
+        "end-to-end tests",
+        |_| (),
+        || {
+            let mut files: Vec<String> = fs::read_dir(place::browser_tests())
+                .map_err(|error| error.to_string())?
+                .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+                .filter(|name| name.ends_with(".test.mjs"))
+                .collect();
+            files.sort();
+            let browser = tools::chromium().ok_or("no Chromium found")?;
+            // One file at a time: the software rasteriser takes a whole core and more.
+            Ok(Run::new("node")
+                .args(["--test", "--test-reporter=spec", "--test-concurrency=1", PAGE_TEST_LIMIT])
+                .args(files)
+                .within(&place::browser_tests())
+                .env("CHROME", browser)
+                .env("DUCTILE_PAGE", page))
+        },
+    )
 }
 
 /// Run a test runner, show what it says, and count. One that fails without naming a failed test counts as one failure.
-fn counted(title: &str, prepare: impl FnOnce() -> Result<Run, String>) -> Tally {
+pub(crate) fn counted(
+    title: &str,
+    mut listen: impl FnMut(&str),
+    prepare: impl FnOnce() -> Result<Run, String>,
+) -> Tally {
     step(title, || {
         let mut tally = Tally::default();
         let outcome = prepare().and_then(|run| {
             run.lines(|line| {
                 println!("{line}");
                 tally += Tally::of_line(line);
+                listen(line);
             })
         });
         match outcome {

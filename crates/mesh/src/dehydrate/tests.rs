@@ -2,7 +2,10 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::family::{draw_curve, family, nature, tag_boundary};
+use crate::property_test::cases;
 use crate::{SourceTag, boundary_loops, measure, primitive, summary, validate};
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
 
 fn v(i: usize) -> VertexId {
     VertexId::from_index(i)
@@ -112,7 +115,7 @@ fn many_control_points_all_stay() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(if cfg!(target_arch = "wasm32") { 4 } else { 48 }))]
+    #![proptest_config(cases(48, 16))]
 
     #[test]
     fn drying_keeps_kind_points_curves_and_regions(

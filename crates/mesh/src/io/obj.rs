@@ -199,6 +199,8 @@ fn corner(line: usize, word: &str, so_far: usize) -> Result<i64, ObjError> {
 mod tests {
     use super::*;
     use crate::{VertexId, primitive};
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
 
     #[test]
     fn every_bit_comes_back() {

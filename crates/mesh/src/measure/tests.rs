@@ -4,6 +4,8 @@ use glam::DVec3;
 
 use super::*;
 use crate::primitive::{self, klein_bottle, moebius, plane, torus};
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
 
 #[test]
 fn the_family_has_the_kinds_of_the_textbook() {

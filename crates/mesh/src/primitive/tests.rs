@@ -2,6 +2,8 @@ use glam::DVec3;
 
 use super::*;
 use crate::{SourceTag, measure, quality, summary, validate};
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
 
 fn circle(n: usize, radius: f64, z: f64) -> Vec<DVec3> {
     (0..n)

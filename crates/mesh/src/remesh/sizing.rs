@@ -104,6 +104,8 @@ impl Sizing {
 mod tests {
     use super::*;
     use crate::{measure, primitive};
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
 
     #[test]
     fn spreading_bounds_the_slope() {

@@ -3,7 +3,10 @@ use core::f64::consts::PI;
 use proptest::prelude::*;
 
 use super::*;
+use crate::property_test::cases;
 use crate::{SourceTag, measure, primitive, quality, summary, validate};
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
 
 /// Moves every point by up to `size` in each direction, repeatably.
 fn jitter(positions: &mut [DVec3], size: f64, mut seed: u64) {
@@ -239,7 +242,7 @@ fn batches_come_to_rest_without_smoothing() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(if cfg!(target_arch = "wasm32") { 4 } else { 32 }))]
+    #![proptest_config(cases(32, 16))]
 
     #[test]
     fn improving_is_safe_and_repeatable(seed in any::<u64>(), target in 0.15_f64..0.8, size in 0.0_f64..0.15) {

@@ -2,7 +2,10 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::family::{draw_curve, family, nature, tag_boundary};
+use crate::property_test::cases;
 use crate::{SourceTag, primitive, summary, validate, validate_curves};
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
 
 fn v(i: u32) -> VertexId {
     VertexId(i)
@@ -41,7 +44,7 @@ fn play(mesh: &mut Mesh, kind: u8, pick: usize) -> bool {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(if cfg!(target_arch = "wasm32") { 8 } else { 96 }))]
+    #![proptest_config(cases(96, 32))]
 
     #[test]
     fn no_sequence_of_moves_changes_the_surface(

@@ -1,4 +1,6 @@
 use super::*;
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
 
 fn pointer(device: Device, id: i32, x: f32, y: f32, time: f64) -> Pointer {
     Pointer { id, device, at: Vec2::new(x, y), modifiers: Modifiers::default(), time }

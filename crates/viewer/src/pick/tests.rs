@@ -1,6 +1,8 @@
 use super::*;
 use crate::camera::{Pose, View};
 use crate::sample::{self, Sketch};
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
 
 /// Looks at the sketch below from above.
 fn from_above(orthographic: bool) -> Camera {
@@ -153,6 +155,7 @@ fn normals_of_a_one_sided_surface_point_to_the_eye() {
 }
 
 /// Not a limit but a figure: `cargo test --release -- --ignored --nocapture pick_time`.
+#[cfg(not(target_arch = "wasm32"))]
 #[test]
 #[ignore = "a measurement"]
 #[expect(clippy::disallowed_methods, reason = "a native measurement")]

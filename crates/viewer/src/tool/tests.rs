@@ -1,6 +1,8 @@
 use super::*;
 use ductile_spec::CurveRole;
 use glam::DVec3;
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
 
 fn structure() -> Structure {
     let curve = |id, closed| CurveSpan { id: CurveId(id), first: 0, count: 4, closed, role: CurveRole::Free };

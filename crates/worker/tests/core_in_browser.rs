@@ -1,14 +1,18 @@
-//! What the core must do in a browser, wherever it runs there.
+//! What the core must do in a browser, in the page and in a dedicated worker: the same bits as everywhere.
+//!
+//! Where it runs is said from outside (`cargo xtask test wasm` does both), so that one build serves both places.
+#![cfg(target_arch = "wasm32")]
+#![allow(clippy::unwrap_used, reason = "a failing test should stop where it fails")]
 
 use acceptance::{Bench, bits_after};
 use ductile_spec::{CurveId, Edit, Example, GrabTarget, PointId, Request};
 use glam::{DVec3, dvec3};
-use wasm_bindgen_test::wasm_bindgen_test;
+use wasm_bindgen_test::wasm_bindgen_test as test;
 
 /// Written by the native half of this test, `tests/bits.rs`.
-const BITS: &str = include_str!("../../../../tests/fixtures/bits.json");
+const BITS: &str = include_str!("../../../tests/fixtures/bits.json");
 
-#[wasm_bindgen_test]
+#[test]
 fn examples_give_the_bits_of_the_native_program_after_200_steps() {
     let recorded: serde_json::Value = serde_json::from_str(BITS).unwrap();
     for example in Example::ALL {
@@ -17,7 +21,7 @@ fn examples_give_the_bits_of_the_native_program_after_200_steps() {
     }
 }
 
-#[wasm_bindgen_test]
+#[test]
 fn a_sheet_is_drawn_skinned_dragged_and_undone() {
     let mut bench = Bench::new();
     let at = [dvec3(1., 0., 0.), dvec3(0., 1., 0.), dvec3(-1., 0., 0.), dvec3(0., -1., 0.)];
@@ -36,7 +40,7 @@ fn a_sheet_is_drawn_skinned_dragged_and_undone() {
     assert_eq!(bench.document, before);
 }
 
-#[wasm_bindgen_test]
+#[test]
 fn hostile_input_is_refused() {
     let mut bench = Bench::with(Example::Ball);
     for text in ["", "{\"ductile\":1}x", "[[[[", "{\"ductile\":99}"] {

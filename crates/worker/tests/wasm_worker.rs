@@ -1,7 +1,0 @@
-//! The core in the browser, in a dedicated worker: the same bits as everywhere.
-#![cfg(target_arch = "wasm32")]
-#![allow(clippy::unwrap_used, reason = "a failing test should stop where it fails")]
-
-mod core_in_browser;
-
-wasm_bindgen_test::wasm_bindgen_test_configure!(run_in_dedicated_worker);
