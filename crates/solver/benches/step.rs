@@ -1,6 +1,7 @@
-//! What a frame costs: the predictor, and one full step (fit, gradient, assembly, conjugate gradients, line search).
+//! What a frame costs: the predictor, and one full step (fit, gradient, assembly, conjugate gradients, line search);
+//! and the fit and the gradient on their own.
 //!
-//! The workloads live in the library, so that a wasm bench can run the same ones. Native only.
+//! The workloads live in the library, so that `wasm_step.rs` can run the same ones in a browser. Native only.
 
 #![allow(clippy::unwrap_used, reason = "a failing test or bench should stop where it fails")]
 
@@ -55,6 +56,18 @@ mod native {
                     |(solver, positions)| solver.predict(positions, &[(handle, DVec3::Z * 0.01)]).unwrap(),
                     BatchSize::LargeInput,
                 );
+            });
+            // A fit at the positions of the last one is skipped, so there are two sets of them to go between.
+            let mut solver = solver.clone();
+            let mut sets = [positions.clone(), positions.iter().map(|p| 1.5 * *p).collect()];
+            criterion.bench_function(&format!("{name}: fit"), |bencher| {
+                bencher.iter(|| {
+                    sets.swap(0, 1);
+                    solver.fit_all(&sets[0]);
+                });
+            });
+            criterion.bench_function(&format!("{name}: gradient"), |bencher| {
+                bencher.iter(|| solver.gradient().len());
             });
         }
         criterion.final_summary();

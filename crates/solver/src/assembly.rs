@@ -29,11 +29,11 @@ pub(crate) enum Rows {
 }
 
 /// The three rows of one neighbourhood: the centre first, then the spokes.
-type LocalRows = [[f64; 3]; MAX_RING + 1];
+pub(crate) type LocalRows = [[f64; 3]; MAX_RING + 1];
 
 /// Writes the rows of `node`; `false` when it has none.
 #[inline]
-fn local_rows(rings: &Rings, fits: &Fits, node: usize, kind: Rows, rows: &mut LocalRows) -> bool {
+pub(crate) fn local_rows(rings: &Rings, fits: &Fits, node: usize, kind: Rows, rows: &mut LocalRows) -> bool {
     let fit = &fits.nodes[node];
     if !fit.is_fitted() {
         return false;
@@ -238,6 +238,8 @@ fn for_star<'a>(
 mod tests {
     use super::*;
     use crate::workload;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
 
     /// The matrix as the sum of dense outer products.
     fn dense(rings: &Rings, fits: &Fits, unknowns: &Unknowns, kind: Rows) -> Vec<Vec<f64>> {

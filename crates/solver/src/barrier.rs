@@ -33,6 +33,8 @@ pub(crate) fn slope(jacobian: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
 
     #[test]
     fn resolved_geometry_costs_nothing() {

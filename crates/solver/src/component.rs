@@ -117,6 +117,8 @@ impl Span {
 mod tests {
     use super::*;
     use crate::workload;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
 
     #[test]
     fn flat_and_few_constraints_are_loose() {

@@ -143,6 +143,8 @@ impl Eigen {
 #[cfg(test)]
 mod tests {
     use super::*;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
 
     fn sample() -> Matrix5 {
         let rows = [[1.0, 0.3, -0.2], [0.2, -1.1, 0.4], [0.9, 0.8, 0.7], [-0.5, 0.6, 1.2], [0.3, 0.1, -0.9]];

@@ -111,6 +111,8 @@ fn scratch_size(symbolic: &SymbolicCholesky<u32>) -> StackReq {
 #[cfg(test)]
 mod tests {
     use super::*;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
 
     #[test]
     fn solves_a_chain() {

@@ -27,7 +27,7 @@ use crate::neighbourhood::{self, Chords, Frame, Spoke};
 use crate::rings::Rings;
 
 /// Eigenvalue of `M` below which a direction of the fit is faded out.
-const FILTER: f64 = 0.02;
+pub(crate) const FILTER: f64 = 0.02;
 /// Mean chord below which a ring counts as collapsed to a point.
 const MIN_LENGTH: f64 = 1e-60;
 /// Jacobian below which the normal of the fit means nothing.

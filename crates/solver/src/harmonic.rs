@@ -159,6 +159,8 @@ impl Plate<'_> {
 mod tests {
     use super::*;
     use crate::workload;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
 
     /// A linear function is harmonic and biharmonic for cotangent weights on a flat disc.
     #[test]

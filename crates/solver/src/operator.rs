@@ -84,6 +84,8 @@ impl SymmetricMatrix {
 #[cfg(test)]
 mod tests {
     use super::*;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
 
     #[test]
     fn product_uses_both_triangles() {

@@ -324,6 +324,8 @@ fn compact(count: usize) -> Result<u32, RingError> {
 mod tests {
     use super::*;
     use crate::workload;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
 
     #[test]
     fn interior_ring_runs_counter_clockwise() {

@@ -1,6 +1,6 @@
 //! The same bits everywhere: 200 frames on two shapes, hashed; the constants were recorded on x86-64.
 //!
-//! Run on the other target with `cargo test -p ductile-solver --target wasm32-unknown-unknown --test bits`.
+//! `cargo xtask test wasm` runs it on the other target.
 
 #![allow(clippy::unwrap_used, reason = "a failing test or bench should stop where it fails")]
 
@@ -8,7 +8,7 @@ use ductile_solver::workload::{self, Stream};
 use ductile_solver::{Budget, CurveSettings, CurveSolver, SurfaceSolver, resample};
 use glam::DVec3;
 #[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test;
+use wasm_bindgen_test::wasm_bindgen_test as test;
 
 /// FNV-1a over the bits of all coordinates.
 fn hash(positions: &[DVec3]) -> u64 {
@@ -38,16 +38,14 @@ fn frames(solver: &mut SurfaceSolver, positions: &mut [DVec3], handle: u32) {
     }
 }
 
-#[cfg_attr(target_arch = "wasm32", wasm_bindgen_test)]
-#[cfg_attr(not(target_arch = "wasm32"), test)]
+#[test]
 fn disc_gives_the_recorded_bits() {
     let (mut solver, mut positions) = workload::raised_disc(8, 0.3).unwrap();
     frames(&mut solver, &mut positions, 0);
     assert_eq!(hash(&positions), DISC, "{:#018x}", hash(&positions));
 }
 
-#[cfg_attr(target_arch = "wasm32", wasm_bindgen_test)]
-#[cfg_attr(not(target_arch = "wasm32"), test)]
+#[test]
 fn pinned_sphere_gives_the_recorded_bits() {
     let mut shape = workload::sphere(3);
     let pins = workload::pin_axes(&mut shape);
@@ -56,8 +54,7 @@ fn pinned_sphere_gives_the_recorded_bits() {
     assert_eq!(hash(&shape.positions), SPHERE, "{:#018x}", hash(&shape.positions));
 }
 
-#[cfg_attr(target_arch = "wasm32", wasm_bindgen_test)]
-#[cfg_attr(not(target_arch = "wasm32"), test)]
+#[test]
 fn curve_gives_the_recorded_bits() {
     let fixed: Vec<bool> = (0..64).map(|i| i % 16 == 0).collect();
     let mut solver = CurveSolver::new(64, true, fixed.clone(), CurveSettings::default()).unwrap();

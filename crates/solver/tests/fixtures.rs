@@ -5,6 +5,8 @@
 use ductile_solver::{Curvature, Rings, Settings, SurfaceSolver, workload};
 use glam::DVec3;
 use serde::Deserialize;
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
 
 macro_rules! fixture {
     ($name:literal) => {
@@ -147,8 +149,8 @@ fn raised_disc() {
         assert!(reports.len() <= 8, "{} steps", reports.len());
         assert!(reports.last().unwrap().at_rest);
         let relative = solver.energy() / case.energy - 1.0;
-        println!("raise {}: {} steps, energy {relative:e}", case.raise, reports.len());
-        assert!(relative.abs() < 1e-4, "raise {}: energy off by {relative}", case.raise);
+        let steps = reports.len();
+        assert!(relative.abs() < 1e-4, "raise {}: energy off by {relative} after {steps} steps", case.raise);
         for (node, expected) in &case.node_positions {
             let found = positions[node.parse::<usize>().unwrap()];
             assert!(found.distance(DVec3::from(*expected)) < 0.01 * case.raise, "node {node}: {found}");

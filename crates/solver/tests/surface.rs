@@ -5,6 +5,8 @@
 use ductile_solver::workload::{self, Stream, Workload};
 use ductile_solver::{Budget, Rings, Settings, SolverError, SurfaceSolver};
 use glam::{DQuat, DVec3};
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
 
 const PI: f64 = std::f64::consts::PI;
 

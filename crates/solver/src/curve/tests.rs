@@ -2,6 +2,8 @@ use glam::DVec3;
 
 use super::*;
 use crate::workload::Stream;
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
 
 const TAU: f64 = std::f64::consts::TAU;
 

@@ -1,5 +1,7 @@
 use super::*;
 use crate::workload::{self, Stream, Workload};
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
 
 /// Steps the same shape with its rings as found and with some of them turned round.
 fn compare_under_reversal(shape: &Workload, seed: u64, tolerance: f64) {
