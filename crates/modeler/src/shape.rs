@@ -172,6 +172,8 @@ pub(crate) fn edit<T: Clone>(shape: &mut Arc<T>) -> &mut T {
 #[cfg(test)]
 mod tests {
     use super::*;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
 
     /// A circle of radius 1 with so many samples, evenly spread.
     fn circle(samples: u32, closed: bool) -> CurveShape {
