@@ -11,8 +11,9 @@
 //! fixed nodes are assembled too; they carry smoothness across control curves. [`Rows::Field`] drops `L²` and the
 //! senses: rows of a scalar field on the surface, which annihilate constants exactly (predictor, section 5).
 
-use crate::fit::{self, Fits};
-use crate::neighbourhood::Spoke;
+use crate::batch::Batch;
+use crate::fits::{Fits, Row};
+use crate::lanes::Pair;
 use crate::operator::{FIXED, SymmetricMatrix, Unknowns};
 use crate::rings::{MAX_RING, Rings};
 
@@ -28,57 +29,45 @@ pub(crate) enum Rows {
     Field,
 }
 
-/// The three rows of one neighbourhood: the centre first, then the spokes.
-pub(crate) type LocalRows = [[f64; 3]; MAX_RING + 1];
+/// The three rows of a batch's neighbourhoods: the centre first, then the neighbours.
+type LocalRows = [[Pair; 3]; MAX_RING + 1];
 
-/// Writes the rows of `node`; `false` when it has none.
-#[inline]
-pub(crate) fn local_rows(rings: &Rings, fits: &Fits, node: usize, kind: Rows, rows: &mut LocalRows) -> bool {
-    let fit = &fits.nodes[node];
-    if !fit.is_fitted() {
-        return false;
-    }
-    let spokes: &[Spoke] = &fits.spokes[rings.slots(node)];
-    let h = fit.frame.h;
-    let factor = fit.area.sqrt() / (h * h);
-    let mut sum = [0.0; 3];
-    for (j, spoke) in spokes.iter().enumerate() {
-        let basis = fit::basis(spoke, h, rings.is_boundary(node));
+/// Gets the rows of a batch ready; `kept` is what the fits keep of it.
+#[inline(always)]
+fn local_rows(rings: &Rings, kept: &[Row], batch: &Batch, kind: Rows, rows: &mut LocalRows) {
+    let mut sum = [Pair::splat(0.0); 3];
+    for (row, kept) in rows[1..].iter_mut().zip(&kept[1..]) {
         for c in 0..3 {
-            let weights = &fit.inverse[c + 2];
-            let mut z = 0.0;
-            for i in 0..5 {
-                z += weights[i] * basis[i];
-            }
-            z *= factor;
-            sum[c] += z;
-            rows[j + 1][c] = z;
+            row[c] = Pair::new(kept[c]);
+            sum[c] += row[c];
         }
     }
-    rows[0] = sum.map(|sum| -sum);
-    if kind == Rows::Offset {
-        let squared = fit.l_squared();
-        for c in 0..3 {
-            rows[0][c] += fit.area.sqrt() * squared[c];
-        }
-        for (row, &sense) in rows[1..].iter_mut().zip(rings.senses(node)) {
+    for c in 0..3 {
+        rows[0][c] = match kind {
+            Rows::Offset => Pair::new(kept[0][c]) - sum[c],
+            Rows::Field => -sum[c],
+        };
+    }
+    if kind == Rows::Offset && rings.is_mixed() {
+        let senses = batch.nodes.map(|node| rings.senses(node as usize));
+        for (row, (&first, &second)) in rows[1..].iter_mut().zip(senses[0].iter().zip(senses[1])) {
             for value in row {
-                *value *= sense;
+                *value *= Pair::new([first, second]);
             }
         }
     }
-    true
 }
 
 /// The pattern of `A` and the places its neighbourhoods scatter to.
 #[derive(Clone, Debug)]
 pub(crate) struct Assembly {
     matrix: SymmetricMatrix,
-    /// Per node where its pairs begin in `places`.
-    starts: Vec<u32>,
-    /// Lower triangle of the local matrix by rows, each entry's place in the values of `matrix`.
-    places: Vec<u32>,
+    /// Per batch the lower triangle of its local matrix by rows: each entry's place in the values of `matrix`.
+    places: Vec<[u32; 2]>,
 }
+
+/// Where a node's pairs begin in `places`, and its lane.
+type Home = (usize, usize);
 
 impl Assembly {
     #[expect(
@@ -86,12 +75,14 @@ impl Assembly {
         reason = "pairs are fewer than 325 per node, checked when rings are made"
     )]
     pub(crate) fn new(rings: &Rings, unknowns: &Unknowns) -> Self {
-        let mut starts = vec![0_u32];
-        for node in 0..rings.len() {
-            let local = rings.ring(node).len() + 1;
-            starts.push(starts[node] + (local * (local + 1) / 2) as u32);
+        let mut homes: Vec<Home> = vec![(0, 0); rings.len()];
+        for batch in rings.batches() {
+            for lane in 0..batch.count {
+                homes[batch.nodes[lane] as usize] = (batch.pairs().start, lane);
+            }
         }
-        let mut places = vec![FIXED; starts[rings.len()] as usize];
+        let pairs = rings.batches().last().map_or(0, |batch| batch.pairs().end);
+        let mut places = vec![[FIXED; 2]; pairs];
         let (mut row_starts, mut columns) = (vec![0_u32], Vec::new());
         // Where column `j` sits in the row being built; valid while `owner[j]` is that row.
         let mut owner = vec![FIXED; unknowns.len()];
@@ -118,33 +109,33 @@ impl Assembly {
                     let column = unknowns.index[far as usize];
                     if column < row {
                         let (high, low) = (mine.max(other), mine.min(other));
-                        places[starts[centre] as usize + high * (high + 1) / 2 + low] =
-                            place_of[column as usize];
+                        let (start, lane) = homes[centre];
+                        places[start + high * (high + 1) / 2 + low][lane] = place_of[column as usize];
                     }
                 }
             });
         }
         let matrix = SymmetricMatrix::new(row_starts, columns);
-        let mut assembly = Self { matrix, starts, places };
-        assembly.place_diagonal(rings, unknowns);
+        let mut assembly = Self { matrix, places };
+        assembly.place_diagonal(rings, unknowns, &homes);
         assembly
     }
 
     /// Diagonal pairs go behind the triangle; pairs with a fixed node to the last place, which nobody reads.
     #[expect(clippy::cast_possible_truncation, reason = "as in new")]
-    fn place_diagonal(&mut self, rings: &Rings, unknowns: &Unknowns) {
+    fn place_diagonal(&mut self, rings: &Rings, unknowns: &Unknowns, homes: &[Home]) {
         let dropped = (self.matrix.values_mut().len() - 1) as u32;
         let first = dropped - unknowns.len() as u32;
         for node in 0..rings.len() {
-            let start = self.starts[node] as usize;
+            let (start, lane) = homes[node];
             for (i, far) in neighbourhood_of(rings, node).enumerate() {
                 let index = unknowns.index[far as usize];
                 if index != FIXED {
-                    self.places[start + i * (i + 1) / 2 + i] = first + index;
+                    self.places[start + i * (i + 1) / 2 + i][lane] = first + index;
                 }
             }
         }
-        for place in self.places.iter_mut().filter(|place| **place == FIXED) {
+        for place in self.places.iter_mut().flatten().filter(|place| **place == FIXED) {
             *place = dropped;
         }
     }
@@ -153,17 +144,16 @@ impl Assembly {
     pub(crate) fn assemble(&mut self, rings: &Rings, fits: &Fits, kind: Rows, mass: impl Fn(usize) -> f64) {
         let values = self.matrix.values_mut();
         values.fill(0.0);
-        let mut rows = [[0.0; 3]; MAX_RING + 1];
-        for node in 0..rings.len() {
-            if !local_rows(rings, fits, node, kind, &mut rows) {
-                continue;
-            }
-            let places = &self.places[self.starts[node] as usize..self.starts[node + 1] as usize];
-            let mut places = places.iter();
-            for i in 0..=rings.ring(node).len() {
+        let mut rows = [[Pair::splat(0.0); 3]; MAX_RING + 1];
+        for batch in rings.batches() {
+            local_rows(rings, &fits.rows[batch.rows()], batch, kind, &mut rows);
+            let mut places = self.places[batch.pairs()].iter();
+            for i in 0..=batch.degree {
                 let a = rows[i];
-                for (b, &place) in rows[..=i].iter().zip(&mut places) {
-                    values[place as usize] += a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+                for (b, place) in rows[..=i].iter().zip(&mut places) {
+                    let product = (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]).to_array();
+                    values[place[0] as usize] += product[0];
+                    values[place[1] as usize] += product[1];
                 }
             }
         }
@@ -186,22 +176,28 @@ impl Assembly {
         rhs: &mut [f64],
     ) {
         rhs.fill(0.0);
-        let mut rows = [[0.0; 3]; MAX_RING + 1];
-        for node in 0..rings.len() {
-            let is_pulled = neighbourhood_of(rings, node).any(|far| field[far as usize] != 0.0);
-            if !is_pulled || !local_rows(rings, fits, node, Rows::Field, &mut rows) {
+        let mut rows = [[Pair::splat(0.0); 3]; MAX_RING + 1];
+        for batch in rings.batches() {
+            let lists = batch.nodes.map(|node| neighbourhood_of(rings, node as usize));
+            let pairs = lists[0].clone().zip(lists[1].clone()).map(|pair| [pair.0 as usize, pair.1 as usize]);
+            if pairs.clone().flatten().all(|far| field[far] == 0.0) {
                 continue;
             }
-            let mut bend = [0.0; 3];
-            for (row, far) in rows.iter().zip(neighbourhood_of(rings, node)) {
+            local_rows(rings, &fits.rows[batch.rows()], batch, Rows::Field, &mut rows);
+            let mut bend = [Pair::splat(0.0); 3];
+            for (row, far) in rows.iter().zip(pairs.clone()) {
+                let values = Pair::new(far.map(|far| field[far]));
                 for c in 0..3 {
-                    bend[c] += row[c] * field[far as usize];
+                    bend[c] += row[c] * values;
                 }
             }
-            for (row, far) in rows.iter().zip(neighbourhood_of(rings, node)) {
-                let index = unknowns.index[far as usize];
-                if index != FIXED {
-                    rhs[index as usize] -= row[0] * bend[0] + row[1] * bend[1] + row[2] * bend[2];
+            for (row, far) in rows.iter().zip(pairs) {
+                let pull = (row[0] * bend[0] + row[1] * bend[1] + row[2] * bend[2]).to_array();
+                for lane in 0..batch.count {
+                    let index = unknowns.index[far[lane]];
+                    if index != FIXED {
+                        rhs[index as usize] -= pull[lane];
+                    }
                 }
             }
         }
@@ -237,22 +233,26 @@ fn for_star<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fits::Wanted;
+    use crate::lanes::Real;
     use crate::workload;
-    #[cfg(target_arch = "wasm32")]
-    use wasm_bindgen_test::wasm_bindgen_test as test;
 
     /// The matrix as the sum of dense outer products.
     fn dense(rings: &Rings, fits: &Fits, unknowns: &Unknowns, kind: Rows) -> Vec<Vec<f64>> {
         let mut a = vec![vec![0.0; unknowns.len()]; unknowns.len()];
-        let mut rows = [[0.0; 3]; MAX_RING + 1];
-        for node in 0..rings.len() {
-            local_rows(rings, fits, node, kind, &mut rows);
-            for (i, x) in neighbourhood_of(rings, node).enumerate() {
-                for (j, y) in neighbourhood_of(rings, node).enumerate() {
-                    let (x, y) = (unknowns.index[x as usize], unknowns.index[y as usize]);
-                    if x != FIXED && y != FIXED {
-                        let product = (0..3).map(|c| rows[i][c] * rows[j][c]).sum::<f64>();
-                        a[x as usize][y as usize] += product;
+        let mut rows = [[Pair::splat(0.0); 3]; MAX_RING + 1];
+        for batch in rings.batches() {
+            local_rows(rings, &fits.rows[batch.rows()], batch, kind, &mut rows);
+            for lane in 0..batch.count {
+                let node = batch.nodes[lane] as usize;
+                for (i, x) in neighbourhood_of(rings, node).enumerate() {
+                    for (j, y) in neighbourhood_of(rings, node).enumerate() {
+                        let (x, y) = (unknowns.index[x as usize], unknowns.index[y as usize]);
+                        if x != FIXED && y != FIXED {
+                            let product =
+                                (0..3).map(|c| rows[i][c].lane(lane) * rows[j][c].lane(lane)).sum::<f64>();
+                            a[x as usize][y as usize] += product;
+                        }
                     }
                 }
             }
@@ -266,7 +266,7 @@ mod tests {
         let rings = Rings::from_triangles(mesh.positions.len(), &mesh.triangles).unwrap();
         let mut fits = Fits::new(&rings);
         let lifted: Vec<_> = mesh.positions.iter().map(|p| *p + glam::DVec3::Z * (0.3 * p.x * p.x)).collect();
-        fits.refit(&rings, &lifted);
+        fits.refit(&rings, &lifted, Wanted::Gradient);
         let unknowns = Unknowns::new(mesh.fixed.iter().map(|fixed| !fixed));
         let mut assembly = Assembly::new(&rings, &unknowns);
         assembly.assemble(&rings, &fits, Rows::Offset, |_| 0.0);
@@ -288,7 +288,7 @@ mod tests {
         let mesh = workload::disc(3);
         let rings = Rings::from_triangles(mesh.positions.len(), &mesh.triangles).unwrap();
         let mut fits = Fits::new(&rings);
-        fits.refit(&rings, &mesh.positions);
+        fits.refit(&rings, &mesh.positions, Wanted::Gradient);
         let unknowns = Unknowns::new(mesh.fixed.iter().map(|fixed| !fixed));
         let mut assembly = Assembly::new(&rings, &unknowns);
         assembly.assemble(&rings, &fits, Rows::Field, |_| 0.0);

@@ -5,7 +5,7 @@
 //! zero, while `J = 1 - O(k² h²)` on resolved geometry.
 
 /// Below this Jacobian the barrier starts: three sigma away from anything a resolved mesh shows (`k h <= 0.7`).
-const START: f64 = 0.5;
+pub(crate) const START: f64 = 0.5;
 /// The Jacobian is not followed below this, so that a flat fold has a large but finite price.
 const CLAMP: f64 = 1e-3;
 /// Weight `beta` of the barrier; the energy of a half sphere is 4π, so one folded node outweighs any shape.

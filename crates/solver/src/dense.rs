@@ -3,21 +3,23 @@
 //! Written out here because a node needs exactly these two and nothing else, in scalar code with a fixed order of
 //! operations. Sources: Golub, Van Loan, *Matrix Computations*, 4.1.2 and 8.5 (cyclic-by-row Jacobi).
 
-/// A symmetric 5 × 5 matrix, both triangles filled.
-pub(crate) type Matrix5 = [[f64; 5]; 5];
+use crate::lanes::Real;
 
-/// The zero matrix.
-pub(crate) const ZERO5: Matrix5 = [[0.0; 5]; 5];
+/// A symmetric 5 × 5 matrix, both triangles filled.
+pub(crate) type Matrix5<T> = [[T; 5]; 5];
 
 /// Inverse of the leading `N` × `N` block of a symmetric positive definite matrix; the rest of the result is zero.
 ///
-/// `None` when a pivot falls below `1e-12` of its diagonal entry: the matrix is numerically singular.
-#[inline]
-pub(crate) fn invert<const N: usize>(m: &Matrix5) -> Option<Matrix5> {
+/// False when a pivot falls below `1e-12` of its diagonal entry in any lane: the matrix is numerically singular, and
+/// what comes with it is worthless.
+#[inline(always)]
+pub(crate) fn invert<T: Real, const N: usize>(m: &Matrix5<T>) -> (Matrix5<T>, bool) {
     // m = L D Lᵀ with unit L; `w` = D Lᵀ while it is built.
-    let mut l = ZERO5;
-    let mut w = ZERO5;
-    let mut inverse_pivot = [0.0; 5];
+    let (zero, one) = (T::splat(0.0), T::splat(1.0));
+    let mut l = [[zero; 5]; 5];
+    let mut w = [[zero; 5]; 5];
+    let mut inverse_pivot = [zero; 5];
+    let mut is_regular = true;
     for i in 0..N {
         for j in 0..i {
             let mut sum = m[i][j];
@@ -31,16 +33,14 @@ pub(crate) fn invert<const N: usize>(m: &Matrix5) -> Option<Matrix5> {
         for k in 0..i {
             pivot -= w[i][k] * l[i][k];
         }
-        // Written so that NaN fails too.
-        if !(pivot > 1e-12 * m[i][i] && pivot > 0.0) {
-            return None;
-        }
-        inverse_pivot[i] = 1.0 / pivot;
+        // Written so that NaN fails too; a zero matrix fails because zero is not less than zero.
+        is_regular &= T::all((T::splat(1e-12) * m[i][i]).less(pivot));
+        inverse_pivot[i] = one / pivot;
     }
     // k = L⁻¹, unit lower triangular.
-    let mut k = ZERO5;
+    let mut k = [[zero; 5]; 5];
     for i in 0..N {
-        k[i][i] = 1.0;
+        k[i][i] = one;
         for j in (0..i).rev() {
             let mut sum = -l[i][j];
             for p in j + 1..i {
@@ -49,31 +49,32 @@ pub(crate) fn invert<const N: usize>(m: &Matrix5) -> Option<Matrix5> {
             k[i][j] = sum;
         }
     }
-    let mut inverse = ZERO5;
+    let mut inverse = [[zero; 5]; 5];
     for i in 0..N {
         for j in 0..=i {
-            let mut sum = 0.0;
-            for p in i..N {
+            // k[i][i] is one.
+            let mut sum = inverse_pivot[i] * k[i][j];
+            for p in i + 1..N {
                 sum += k[p][i] * inverse_pivot[p] * k[p][j];
             }
             inverse[i][j] = sum;
             inverse[j][i] = sum;
         }
     }
-    Some(inverse)
+    (inverse, is_regular)
 }
 
 /// Eigenvalues and eigenvectors (as columns) of a symmetric matrix.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Eigen {
     pub(crate) values: [f64; 5],
-    pub(crate) vectors: Matrix5,
+    pub(crate) vectors: Matrix5<f64>,
 }
 
 /// Cyclic Jacobi. Sweeps until the off-diagonal part is negligible, at most 12 times (it converges quadratically).
-pub(crate) fn eigen(m: &Matrix5) -> Eigen {
+pub(crate) fn eigen(m: &Matrix5<f64>) -> Eigen {
     let mut a = *m;
-    let mut v = ZERO5;
+    let mut v = [[0.0; 5]; 5];
     for (i, row) in v.iter_mut().enumerate() {
         row[i] = 1.0;
     }
@@ -99,7 +100,7 @@ pub(crate) fn eigen(m: &Matrix5) -> Eigen {
 }
 
 /// One Jacobi rotation in the plane (p, q) that makes `a[p][q]` zero.
-fn rotate(a: &mut Matrix5, v: &mut Matrix5, p: usize, q: usize) {
+fn rotate(a: &mut Matrix5<f64>, v: &mut Matrix5<f64>, p: usize, q: usize) {
     if a[p][q] == 0.0 {
         return;
     }
@@ -122,10 +123,10 @@ fn rotate(a: &mut Matrix5, v: &mut Matrix5, p: usize, q: usize) {
 
 impl Eigen {
     /// The symmetric matrix `V g(Λ) Vᵀ`.
-    pub(crate) fn map(&self, g: impl Fn(f64) -> f64) -> Matrix5 {
+    pub(crate) fn map(&self, g: impl Fn(f64) -> f64) -> Matrix5<f64> {
         let scaled = self.values.map(g);
         let v = &self.vectors;
-        let mut result = ZERO5;
+        let mut result = [[0.0; 5]; 5];
         for i in 0..5 {
             for j in 0..=i {
                 let mut sum = 0.0;
@@ -146,9 +147,9 @@ mod tests {
     #[cfg(target_arch = "wasm32")]
     use wasm_bindgen_test::wasm_bindgen_test as test;
 
-    fn sample() -> Matrix5 {
+    fn sample() -> Matrix5<f64> {
         let rows = [[1.0, 0.3, -0.2], [0.2, -1.1, 0.4], [0.9, 0.8, 0.7], [-0.5, 0.6, 1.2], [0.3, 0.1, -0.9]];
-        let mut m = ZERO5;
+        let mut m = [[0.0; 5]; 5];
         for i in 0..5 {
             for j in 0..5 {
                 m[i][j] = (0..3).map(|k| rows[i][k] * rows[j][k]).sum::<f64>();
@@ -158,8 +159,8 @@ mod tests {
         m
     }
 
-    fn product(a: &Matrix5, b: &Matrix5) -> Matrix5 {
-        let mut c = ZERO5;
+    fn product(a: &Matrix5<f64>, b: &Matrix5<f64>) -> Matrix5<f64> {
+        let mut c = [[0.0; 5]; 5];
         for i in 0..5 {
             for j in 0..5 {
                 c[i][j] = (0..5).map(|k| a[i][k] * b[k][j]).sum();
@@ -168,7 +169,7 @@ mod tests {
         c
     }
 
-    fn assert_identity(m: &Matrix5, size: usize) {
+    fn assert_identity(m: &Matrix5<f64>, size: usize) {
         for (i, row) in m.iter().enumerate().take(size) {
             for (j, &entry) in row.iter().enumerate().take(size) {
                 let expected = if i == j { 1.0 } else { 0.0 };
@@ -177,11 +178,16 @@ mod tests {
         }
     }
 
+    fn regular((inverse, is_regular): (Matrix5<f64>, bool)) -> Matrix5<f64> {
+        assert!(is_regular);
+        inverse
+    }
+
     #[test]
     fn inverse_times_matrix_is_identity() {
         let m = sample();
-        assert_identity(&product(&invert::<5>(&m).unwrap(), &m), 5);
-        assert_identity(&product(&invert::<3>(&m).unwrap(), &m), 3);
+        assert_identity(&product(&regular(invert::<f64, 5>(&m)), &m), 5);
+        assert_identity(&product(&regular(invert::<f64, 3>(&m)), &m), 3);
     }
 
     #[test]
@@ -191,9 +197,9 @@ mod tests {
         for row in &mut m {
             row[4] = row[3];
         }
-        assert!(invert::<5>(&m).is_none());
+        assert!(!invert::<f64, 5>(&m).1);
         m[0][0] = f64::NAN;
-        assert!(invert::<5>(&m).is_none());
+        assert!(!invert::<f64, 5>(&m).1);
     }
 
     #[test]

@@ -11,20 +11,22 @@
 //! the spectral filter of an ill-conditioned ring depends neither on which neighbour comes first nor on the sense of
 //! the ring. In this basis `L = (L11, √2 L12, L22)` and every weight of the thin-plate energy is one.
 //!
-//! Filter: the inverse of `M = SᵀS` is `f(M)` with `f(λ) = 1/λ` for `λ >= 0.02`, else `λ/0.02²`. Normalised coordinates
+//! Nearly every node is *ordinary*: its fit is the plain inverse of `M = SᵀS`, its Jacobian is beyond the barrier, and
+//! two such nodes are fitted at once. The others are fitted with care, one by one.
+//!
+//! Filter: the inverse of `M` is `f(M)` with `f(λ) = 1/λ` for `λ >= 0.02`, else `λ/0.02²`. Normalised coordinates
 //! make 0.02 free of scale; rings of degree 3 and 4 get their minimum-norm solution without any switching. Whether
 //! the plain inverse serves is decided by `trace M⁻¹ < 1/0.02`, which proves that every eigenvalue lies above 0.02
 //! (a bound on the pivots, as in the prototypes, does not, and would let the energy jump).
 
-use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
+use std::f64::consts::FRAC_1_SQRT_2;
 
 use glam::DVec3;
 
 use crate::barrier;
-use crate::dense::{self, Matrix5, ZERO5};
-use crate::energy::thin_plate;
-use crate::neighbourhood::{self, Chords, Frame, Spoke};
-use crate::rings::Rings;
+use crate::dense::{self, Matrix5};
+use crate::lanes::{Real, Vector};
+use crate::neighbourhood::Ring;
 
 /// Eigenvalue of `M` below which a direction of the fit is faded out.
 pub(crate) const FILTER: f64 = 0.02;
@@ -47,55 +49,45 @@ pub(crate) enum Kind {
     Folded,
 }
 
-/// The fit of one node.
+/// The fit of a node, or of two.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct NodeFit {
-    pub(crate) kind: Kind,
-    pub(crate) frame: Frame,
+pub(crate) struct Fit<T> {
     /// `f(M)`.
-    pub(crate) inverse: Matrix5,
+    pub(crate) inverse: Matrix5<T>,
     /// Coefficients D1 to D5, in normalised coordinates.
-    pub(crate) d: [DVec3; 5],
-    pub(crate) normal: DVec3,
+    pub(crate) d: [Vector<T>; 5],
+    pub(crate) normal: Vector<T>,
     /// `|s_u × s_v|`.
-    pub(crate) jacobian: f64,
+    pub(crate) jacobian: T,
     /// `(L11, √2 L12, L22)`.
-    pub(crate) l: [f64; 3],
+    pub(crate) l: [T; 3],
     /// One third of the parametric fan.
-    pub(crate) area: f64,
-    /// Whether the fan was turned inside out and its area set to zero.
-    pub(crate) is_area_clamped: bool,
-    /// Thin-plate plus barrier.
-    pub(crate) energy: f64,
+    pub(crate) area: T,
 }
 
-impl NodeFit {
+/// A fit made with care, and what was out of the ordinary.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct CarefulFit {
+    pub(crate) fit: Fit<f64>,
+    pub(crate) kind: Kind,
+    /// Whether the fan was turned inside out and its area set to zero.
+    pub(crate) is_area_clamped: bool,
+}
+
+impl CarefulFit {
     /// Whether the node has curvature rows and an energy that depends on its ring.
     #[inline]
     pub(crate) fn is_fitted(&self) -> bool {
         matches!(self.kind, Kind::Plain | Kind::Filtered)
     }
+}
 
-    /// Mean and Gaussian curvature. The mean curvature is negative where the normal points out of a sphere.
-    #[inline]
-    pub(crate) fn curvature(&self) -> Curvature {
-        let [l11, l12, l22] = [self.l[0], self.l[1] * FRAC_1_SQRT_2, self.l[2]];
-        Curvature { mean: 0.5 * (l11 + l22), gauss: l11 * l22 - l12 * l12 }
-    }
-
-    /// The square of the second fundamental form in the basis of `l`.
-    #[inline]
-    pub(crate) fn l_squared(&self) -> [f64; 3] {
-        let [l11, l12, l22] = self.l; // l12 carries its √2
-        let half = 0.5 * l12 * l12;
-        [l11 * l11 + half, l12 * (l11 + l22), l22 * l22 + half]
-    }
-
+impl Fit<f64> {
     /// The fitted quadratic at normalised coordinates, relative to the node; `linear` scales the first-order part.
     pub(crate) fn evaluate(&self, u: f64, v: f64, linear: f64) -> DVec3 {
-        let second =
-            self.d[2] * (0.5 * u * u) + self.d[3] * (u * v * FRAC_1_SQRT_2) + self.d[4] * (0.5 * v * v);
-        (self.d[0] * u + self.d[1] * v) * linear + second
+        let d = self.d.map(|d| d.lane(0));
+        let second = d[2] * (0.5 * u * u) + d[3] * (u * v * FRAC_1_SQRT_2) + d[4] * (0.5 * v * v);
+        (d[0] * u + d[1] * v) * linear + second
     }
 
     /// The derivatives of the fitted quadratic by `u` and `v`.
@@ -115,6 +107,13 @@ pub struct Curvature {
 }
 
 impl Curvature {
+    /// From `(L11, √2 L12, L22)`.
+    #[inline]
+    pub(crate) fn new(l: [f64; 3]) -> Self {
+        let [l11, l12, l22] = [l[0], l[1] * FRAC_1_SQRT_2, l[2]];
+        Self { mean: 0.5 * (l11 + l22), gauss: l11 * l22 - l12 * l12 }
+    }
+
     /// The larger principal curvature by magnitude.
     pub fn largest(&self) -> f64 {
         let discriminant = self.mean * self.mean - self.gauss;
@@ -122,126 +121,150 @@ impl Curvature {
     }
 }
 
-/// The fits of all nodes at one set of positions.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Fits {
-    pub(crate) nodes: Vec<NodeFit>,
-    pub(crate) spokes: Vec<Spoke>,
-    /// Where the fits were made.
-    pub(crate) positions: Vec<DVec3>,
-    /// Sum over all nodes, in index order.
-    pub(crate) energy: f64,
+/// The square of the second fundamental form in the basis of `l`.
+#[inline(always)]
+pub(crate) fn square<T: Real>(l: [T; 3]) -> [T; 3] {
+    let [l11, l12, l22] = l; // l12 carries its √2
+    let half = T::splat(0.5) * l12 * l12;
+    [l11 * l11 + half, l12 * (l11 + l22), l22 * l22 + half]
 }
 
-impl Fits {
-    /// Room for one connectivity.
-    pub(crate) fn new(rings: &Rings) -> Self {
-        Self {
-            nodes: vec![NodeFit::default(); rings.len()],
-            spokes: vec![Spoke::default(); rings.spokes()],
-            positions: vec![DVec3::NAN; rings.len()],
-            energy: f64::NAN,
-        }
+/// Fits an unrolled ring; true where every lane is ordinary. The result is worthless where it is false.
+///
+/// `N` is 5 inside and 3 on the boundary.
+#[inline(always)]
+pub(crate) fn fit_ordinary<T: Real, const N: usize>(ring: &Ring<T>) -> (Fit<T>, bool) {
+    let mut fit = Fit::default();
+    let sum = fan(ring);
+    fit.area = sum / T::splat(6.0);
+    let (m, b) = moments::<T, N>(ring);
+    let (inverse, is_regular) = dense::invert::<T, N>(&m);
+    fit.inverse = inverse;
+    let mut trace = T::splat(0.0);
+    for i in 0..N {
+        trace += inverse[i][i];
     }
-
-    /// Fits every node, unless these are the positions of the last call.
-    pub(crate) fn refit(&mut self, rings: &Rings, positions: &[DVec3]) {
-        if self.positions == positions {
-            return;
-        }
-        self.positions.copy_from_slice(positions);
-        let mut energy = 0.0;
-        for node in 0..rings.len() {
-            let spokes = &mut self.spokes[rings.slots(node)];
-            let chords = Chords::new(positions, node, rings.ring(node));
-            fit_node(&mut self.nodes[node], chords.all(), rings.is_boundary(node), spokes);
-            energy += self.nodes[node].energy;
-        }
-        self.energy = energy;
-    }
-}
-
-/// The row of the basis at a spoke.
-#[inline]
-pub(crate) fn basis(spoke: &Spoke, h: f64, is_boundary: bool) -> [f64; 5] {
-    let (u, v) = (spoke.r * spoke.cos / h, spoke.r * spoke.sin / h);
-    if is_boundary {
-        [u, v, 0.5 * u * u, 0.0, 0.0]
-    } else {
-        [u, v, 0.5 * u * u, FRAC_1_SQRT_2 * u * v, 0.5 * v * v]
-    }
-}
-
-/// Fits one node in place: a fit is half a kilobyte, too much to hand back by value.
-fn fit_node(fit: &mut NodeFit, chords: &[DVec3], is_boundary: bool, spokes: &mut [Spoke]) {
-    *fit = NodeFit::default();
-    if chords.len() < 2 {
-        return;
-    }
-    fit.frame = neighbourhood::unroll(chords, is_boundary, spokes);
-    fit.jacobian = 1.0;
-    fit.normal = facet_normal(chords, is_boundary);
-    fan_area(fit, is_boundary, spokes);
-    // A boundary node with two neighbours is an ear: one flat triangle, no second direction to fit.
-    if chords.len() == 2 || !(fit.frame.h > MIN_LENGTH) {
-        return;
-    }
-    let (m, b) = moments(chords, is_boundary, spokes, fit.frame.h);
-    let plain = if is_boundary { dense::invert::<3>(&m) } else { dense::invert::<5>(&m) };
-    let trace = |inverse: &Matrix5| (0..5).map(|i| inverse[i][i]).sum::<f64>();
-    (fit.inverse, fit.kind) = match plain {
-        Some(inverse) if trace(&inverse) < 1.0 / FILTER => (inverse, Kind::Plain),
-        _ => (dense::eigen(&m).map(filter), Kind::Filtered),
-    };
-    for (row, d) in fit.inverse.iter().zip(&mut fit.d) {
-        *d = b[0] * row[0] + b[1] * row[1] + b[2] * row[2] + b[3] * row[3] + b[4] * row[4];
-    }
-    derive(fit);
-    fit.energy = thin_plate::value(fit) + barrier::value(fit.jacobian);
-}
-
-/// Normal, Jacobian and second fundamental form from the coefficients.
-#[inline]
-fn derive(fit: &mut NodeFit) {
-    let squared = fit.frame.h * fit.frame.h;
+    coefficients::<T, N>(&mut fit, &b);
+    let squared = ring.h * ring.h;
     let m = fit.d[0].cross(fit.d[1]);
     let length = m.length();
     fit.jacobian = length / squared;
-    if !(fit.jacobian > MIN_JACOBIAN) {
-        fit.kind = Kind::Folded;
-        return;
+    fit.normal = m * (T::splat(1.0) / length);
+    second_form(&mut fit, squared);
+    let zero = T::splat(0.0);
+    let is_ordinary = is_regular
+        && T::all(zero.less(sum))
+        && T::all(trace.less(T::splat(1.0 / FILTER)))
+        && T::all(T::splat(barrier::START).less(fit.jacobian))
+        && T::all(T::splat(MIN_LENGTH).less(ring.h));
+    (fit, is_ordinary)
+}
+
+/// Unrolls and fits one node, whatever state its ring is in.
+pub(crate) fn fit_carefully(ring: &mut Ring<f64>) -> CarefulFit {
+    let mut careful = CarefulFit::default();
+    if ring.degree < 2 {
+        return careful;
     }
-    fit.normal = m / length;
-    for (l, d) in fit.l.iter_mut().zip(&fit.d[2..]) {
-        *l = d.dot(fit.normal) / squared;
+    ring.unroll();
+    let fit = &mut careful.fit;
+    fit.jacobian = 1.0;
+    fit.normal = facet_normal(ring);
+    let sum = fan(ring);
+    // A sliver can turn the fan inside out; a negative area would reward it.
+    careful.is_area_clamped = !(sum > 0.0);
+    fit.area = if careful.is_area_clamped { 0.0 } else { sum / 6.0 };
+    // A boundary node with two neighbours is an ear: one flat triangle, no second direction to fit.
+    if ring.degree == 2 || !(ring.h > MIN_LENGTH) {
+        return careful;
     }
+    let (m, b) = careful_moments(ring);
+    let (plain, is_regular) =
+        if ring.is_boundary { dense::invert::<f64, 3>(&m) } else { dense::invert::<f64, 5>(&m) };
+    let trace = (0..5).map(|i| plain[i][i]).sum::<f64>();
+    let is_plain = is_regular && trace < 1.0 / FILTER;
+    careful.kind = if is_plain { Kind::Plain } else { Kind::Filtered };
+    fit.inverse = if is_plain { plain } else { dense::eigen(&m).map(filter) };
+    coefficients::<f64, 5>(fit, &b);
+    let squared = ring.h * ring.h;
+    let m = fit.d[0].cross(fit.d[1]);
+    let length = m.length();
+    fit.jacobian = length / squared;
+    if fit.jacobian > MIN_JACOBIAN {
+        fit.normal = m * (1.0 / length);
+        second_form(fit, squared);
+    } else {
+        careful.kind = Kind::Folded;
+    }
+    careful
+}
+
+/// `M` and `Sᵀe` with the basis that the ring has.
+pub(crate) fn careful_moments(ring: &Ring<f64>) -> (Matrix5<f64>, [Vector<f64>; 5]) {
+    if ring.is_boundary { moments::<f64, 3>(ring) } else { moments::<f64, 5>(ring) }
 }
 
 /// `M = SᵀS` and `Sᵀe`.
-#[inline]
-pub(crate) fn moments(
-    chords: &[DVec3],
-    is_boundary: bool,
-    spokes: &[Spoke],
-    h: f64,
-) -> (Matrix5, [DVec3; 5]) {
-    let mut m = ZERO5;
-    let mut b = [DVec3::ZERO; 5];
-    for (chord, spoke) in chords.iter().zip(spokes) {
-        let row = basis(spoke, h, is_boundary);
-        for i in 0..5 {
-            for j in 0..=i {
-                m[i][j] += row[i] * row[j];
+#[inline(always)]
+fn moments<T: Real, const N: usize>(ring: &Ring<T>) -> (Matrix5<T>, [Vector<T>; 5]) {
+    let mut m = Matrix5::<T>::default();
+    let mut b = [Vector::zero(); 5];
+    let inverse_h = T::splat(1.0) / ring.h;
+    for j in 0..ring.degree {
+        let row = ring.basis(ring.uv(j, inverse_h));
+        let chord = ring.chords[j];
+        for i in 0..N {
+            for k in 0..=i {
+                m[i][k] += row[i] * row[k];
             }
-            b[i] += *chord * row[i];
+            b[i] += chord * row[i];
         }
     }
-    for i in 0..5 {
-        for j in 0..i {
-            m[j][i] = m[i][j];
+    for i in 0..N {
+        for k in 0..i {
+            m[k][i] = m[i][k];
         }
     }
     (m, b)
+}
+
+/// `D = f(M) Sᵀe`
+#[inline(always)]
+fn coefficients<T: Real, const N: usize>(fit: &mut Fit<T>, b: &[Vector<T>; 5]) {
+    for i in 0..N {
+        let row = &fit.inverse[i];
+        let mut sum = b[0] * row[0];
+        for k in 1..N {
+            sum += b[k] * row[k];
+        }
+        fit.d[i] = sum;
+    }
+}
+
+#[inline(always)]
+fn second_form<T: Real>(fit: &mut Fit<T>, squared: T) {
+    let inverse = T::splat(1.0) / squared;
+    for c in 0..3 {
+        fit.l[c] = fit.d[c + 2].dot(fit.normal) * inverse;
+    }
+}
+
+/// Twice the area of the parametric fan: the sum of `r_j r_{j+1} sin(scaled angle)`.
+#[inline(always)]
+fn fan<T: Real>(ring: &Ring<T>) -> T {
+    let mut sum = T::splat(0.0);
+    for j in 0..ring.gaps() {
+        let next = ring.next(j);
+        sum += ring.r[j] * ring.r[next] * (ring.cos[j] * ring.sin[next] - ring.sin[j] * ring.cos[next]);
+    }
+    sum
+}
+
+/// Unit sum of the triangles' area vectors: the normal where no quadratic gives one.
+fn facet_normal(ring: &Ring<f64>) -> Vector<f64> {
+    let sum: DVec3 = (0..ring.gaps()).map(|j| ring.cross[j].lane(0)).sum();
+    let normal = sum.try_normalize().unwrap_or(DVec3::Z);
+    Vector::gather(|_| normal)
 }
 
 /// The spectral filter `f`.
@@ -258,28 +281,3 @@ pub(crate) fn filter_difference(x: f64, y: f64) -> f64 {
         _ => (filter(x) - filter(y)) / (x - y),
     }
 }
-
-/// One third of the fan in the parameter plane: the sum of `r_j r_{j+1} sin(scaled angle) / 6`.
-#[inline]
-fn fan_area(fit: &mut NodeFit, is_boundary: bool, spokes: &[Spoke]) {
-    let mut sum = 0.0;
-    for j in 0..neighbourhood::gaps(spokes.len(), is_boundary) {
-        let (near, far) = (&spokes[j], &spokes[if j + 1 == spokes.len() { 0 } else { j + 1 }]);
-        sum += near.r * far.r * (near.cos * far.sin - near.sin * far.cos);
-    }
-    // A sliver can turn the fan inside out; a negative area would reward it.
-    fit.is_area_clamped = !(sum > 0.0);
-    fit.area = if fit.is_area_clamped { 0.0 } else { sum / 6.0 };
-}
-
-/// Unit sum of the triangles' area vectors: the normal where no quadratic gives one.
-fn facet_normal(chords: &[DVec3], is_boundary: bool) -> DVec3 {
-    let mut sum = DVec3::ZERO;
-    for j in 0..neighbourhood::gaps(chords.len(), is_boundary) {
-        sum += chords[j].cross(chords[if j + 1 == chords.len() { 0 } else { j + 1 }]);
-    }
-    sum.try_normalize().unwrap_or(DVec3::Z)
-}
-
-/// `√2`, for those who need `L12` or `uv` without their factor.
-pub(crate) const ROOT_TWO: f64 = SQRT_2;

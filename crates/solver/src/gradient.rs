@@ -1,208 +1,260 @@
-//! The exact gradient of the discrete energy, by reverse mode through one neighbourhood, all nodes in one sweep.
+//! The exact gradient of the discrete energy, by reverse mode through one neighbourhood (or two side by side).
 //!
 //! Source: recipe section 3; the numbered steps below are its numbers. Angles, radii, areas, normals and the spectral
 //! filter are all differentiated: the terms that the literal scheme freezes do not vanish at the solution.
 //! Units: energy per length. The sum over nodes and the torque are zero up to rounding.
 
-use glam::DVec3;
+use crate::dense::{self, Matrix5};
+use crate::energy::Adjoint;
+use crate::fit::{self, CarefulFit, Fit, Kind};
+use crate::lanes::{Real, Vector};
+use crate::neighbourhood::Ring;
+use crate::rings::MAX_RING;
 
-use crate::dense::{self, Matrix5, ZERO5};
-use crate::energy::{Adjoint, thin_plate};
-use crate::fit::{self, Fits, Kind, NodeFit};
-use crate::neighbourhood::{self, Chords, Spoke};
-use crate::rings::{MAX_RING, Rings};
+/// Where the way back begins and ends; kept and used again. Entries beyond the degree are left over.
+#[derive(Clone, Debug)]
+pub(crate) struct Backward<T> {
+    /// Derivative with respect to every chord `e_j`.
+    pub(crate) chords: [Vector<T>; MAX_RING],
+    /// With respect to the polar coordinates of every chord.
+    r: [T; MAX_RING],
+    theta: [T; MAX_RING],
+    /// With respect to the scaled angle between a chord and the next (the area sees it directly).
+    gap: [T; MAX_RING],
+}
 
-/// Writes `dE/dp` of every node into `gradient`.
-pub(crate) fn gradient(rings: &Rings, fits: &Fits, gradient: &mut [DVec3]) {
-    gradient.fill(DVec3::ZERO);
-    for (node, fit) in fits.nodes.iter().enumerate().filter(|(_, fit)| fit.is_fitted()) {
-        let ring = rings.ring(node);
-        let chords = Chords::new(&fits.positions, node, ring);
-        let ring_view = Ring {
-            fit,
-            chords: chords.all(),
-            spokes: &fits.spokes[rings.slots(node)],
-            is_boundary: rings.is_boundary(node),
-        };
-        let bars = ring_view.chord_bars(&thin_plate::adjoint(fit));
-        let mut sum = DVec3::ZERO;
-        for (&far, &bar) in ring.iter().zip(&bars) {
-            gradient[far as usize] += bar;
-            sum += bar;
-        }
-        gradient[node] -= sum;
+impl<T: Real> Default for Backward<T> {
+    fn default() -> Self {
+        let numbers = [T::default(); MAX_RING];
+        Self { chords: [Vector::zero(); MAX_RING], r: numbers, theta: numbers, gap: numbers }
     }
 }
 
-/// One neighbourhood on its way back.
-struct Ring<'a> {
-    fit: &'a NodeFit,
-    chords: &'a [DVec3],
-    spokes: &'a [Spoke],
-    is_boundary: bool,
+/// What a careful fit adds on the way back.
+struct Exceptions {
+    is_area_clamped: bool,
+    /// `M̄ + M̄ᵀ` of a filtered fit.
+    filter: Option<Matrix5<f64>>,
 }
 
-/// Derivatives with respect to the polar coordinates of every spoke.
-struct PolarBars {
-    r: [f64; MAX_RING],
-    theta: [f64; MAX_RING],
-    /// With respect to the scaled angle between a spoke and the next (the area sees it directly).
-    gap: [f64; MAX_RING],
-}
+impl<T: Real> Backward<T> {
+    /// The derivative with respect to every chord of ordinary fits.
+    #[inline(always)]
+    pub(crate) fn run<const N: usize>(&mut self, ring: &Ring<T>, fit: &Fit<T>, adjoint: &Adjoint<T>) {
+        self.clear(ring.degree);
+        self.through_fit::<N>(ring, fit, adjoint);
+        self.through_area(ring, adjoint.area);
+        self.through_angles(ring);
+        self.through_lengths(ring);
+    }
 
-impl Ring<'_> {
-    /// The derivative with respect to every chord `e_j`.
-    #[inline]
-    fn chord_bars(&self, adjoint: &Adjoint) -> [DVec3; MAX_RING] {
-        let mut chord_bars = [DVec3::ZERO; MAX_RING];
-        let mut polar = PolarBars { r: [0.0; MAX_RING], theta: [0.0; MAX_RING], gap: [0.0; MAX_RING] };
-        self.through_fit(adjoint, &mut chord_bars, &mut polar);
-        if !self.fit.is_area_clamped {
-            self.through_area(adjoint.area, &mut polar);
+    #[inline(always)]
+    fn clear(&mut self, degree: usize) {
+        for gap in &mut self.gap[..degree] {
+            *gap = T::splat(0.0);
         }
-        self.through_angles(&mut polar, &mut chord_bars);
-        // 6. the chord's own length
-        for (j, spoke) in self.spokes.iter().enumerate() {
-            if spoke.r > 0.0 {
-                chord_bars[j] += self.chords[j] * (polar.r[j] / spoke.r);
-            }
-        }
-        chord_bars
     }
 
     /// Steps 2 to 4: least squares, basis, polar coordinates.
-    #[inline]
-    fn through_fit(&self, adjoint: &Adjoint, chord_bars: &mut [DVec3; MAX_RING], polar: &mut PolarBars) {
-        let (h, d) = (self.fit.frame.h, &self.fit.d);
-        let inverse_h = 1.0 / h;
-        // 2. X = f(M) D̄
-        let mut x = [DVec3::ZERO; 5];
-        for (row, x) in self.fit.inverse.iter().zip(&mut x) {
-            for (&factor, &bar) in row.iter().zip(&adjoint.d) {
-                *x += bar * factor;
-            }
-        }
-        let m_bar = (self.fit.kind == Kind::Filtered).then(|| self.filter_bar(&adjoint.d));
-        let mut h_bar = adjoint.h;
-        for (j, (spoke, &chord)) in self.spokes.iter().zip(self.chords).enumerate() {
-            let row = fit::basis(spoke, h, self.is_boundary);
-            let mut q = DVec3::ZERO;
-            let mut residual = chord;
-            for i in 0..5 {
+    #[inline(always)]
+    fn through_fit<const N: usize>(&mut self, ring: &Ring<T>, fit: &Fit<T>, adjoint: &Adjoint<T>) {
+        let x = weights::<T, N>(fit, adjoint);
+        let inverse_h = T::splat(1.0) / ring.h;
+        for j in 0..ring.degree {
+            let (u, v) = ring.uv(j, inverse_h);
+            let row = ring.basis((u, v));
+            let mut q = x[0] * row[0];
+            let mut residual = ring.chords[j] - fit.d[0] * row[0];
+            for i in 1..N {
                 q += x[i] * row[i];
-                residual -= d[i] * row[i];
+                residual -= fit.d[i] * row[i];
             }
-            chord_bars[j] += q;
-            let mut row_bar = [0.0; 5];
-            if let Some(m_bar) = &m_bar {
-                for i in 0..5 {
-                    row_bar[i] = chord.dot(x[i]) + (0..5).map(|k| m_bar[i][k] * row[k]).sum::<f64>();
-                }
-            } else {
-                for i in 0..5 {
-                    row_bar[i] = residual.dot(x[i]) - q.dot(d[i]);
-                }
+            self.chords[j] = q;
+            let mut row_bar = [T::splat(0.0); 5];
+            for i in 0..N {
+                row_bar[i] = residual.dot(x[i]) - q.dot(fit.d[i]);
             }
-            // 3. basis row -> (u, v); the boundary has no rows 4 and 5.
-            let (u, v) = (row[0], row[1]);
-            let mut u_bar = row_bar[0] + u * row_bar[2];
-            let mut v_bar = row_bar[1];
-            if !self.is_boundary {
-                let mixed = row_bar[3] / fit::ROOT_TWO;
-                u_bar += v * mixed;
-                v_bar += u * mixed + v * row_bar[4];
-            }
-            // 4. (u, v) -> (r, theta)
-            polar.r[j] = (u_bar * spoke.cos + v_bar * spoke.sin) * inverse_h;
-            polar.theta[j] = (v_bar * spoke.cos - u_bar * spoke.sin) * spoke.r * inverse_h;
-            h_bar -= (u_bar * u + v_bar * v) * inverse_h;
-        }
-        // A plain fit does not depend on h at all: its h_bar is zero up to rounding.
-        if m_bar.is_some() {
-            let share = h_bar / self.spokes.len() as f64;
-            for r_bar in &mut polar.r[..self.spokes.len()] {
-                *r_bar += share;
-            }
+            self.through_basis(ring, j, (u, v), &row_bar, inverse_h);
         }
     }
 
-    /// `M̄ + M̄ᵀ` of a filtered node: the derivative of the matrix function `f(M)`.
-    fn filter_bar(&self, d_bar: &[DVec3; 5]) -> Matrix5 {
-        let (m, b) = fit::moments(self.chords, self.is_boundary, self.spokes, self.fit.frame.h);
-        let eigen = dense::eigen(&m);
-        let v = &eigen.vectors;
-        // D̄ and Sᵀe in the eigenbasis.
-        let turn = |rows: &[DVec3; 5]| -> [DVec3; 5] {
-            std::array::from_fn(|k| (0..5).map(|i| rows[i] * v[i][k]).sum())
-        };
-        let (d_turned, b_turned) = (turn(d_bar), turn(&b));
-        let mut inner = ZERO5;
-        for x in 0..5 {
-            for y in 0..5 {
-                let difference = fit::filter_difference(eigen.values[x], eigen.values[y]);
-                inner[x][y] = difference * (d_turned[x].dot(b_turned[y]) + d_turned[y].dot(b_turned[x]));
-            }
+    /// Steps 3 and 4 of one neighbour: basis row -> (u, v) -> (r, theta). Returns `u ū + v v̄`.
+    #[inline(always)]
+    fn through_basis(
+        &mut self,
+        ring: &Ring<T>,
+        j: usize,
+        (u, v): (T, T),
+        row_bar: &[T; 5],
+        inverse_h: T,
+    ) -> T {
+        let mut u_bar = row_bar[0] + u * row_bar[2];
+        let mut v_bar = row_bar[1];
+        // The boundary has no rows 4 and 5.
+        if !ring.is_boundary {
+            let mixed = row_bar[3] * T::splat(std::f64::consts::FRAC_1_SQRT_2);
+            u_bar += v * mixed;
+            v_bar += u * mixed + v * row_bar[4];
         }
-        let mut result = ZERO5;
-        for i in 0..5 {
-            for j in 0..5 {
-                for x in 0..5 {
-                    for y in 0..5 {
-                        result[i][j] += v[i][x] * inner[x][y] * v[j][y];
-                    }
-                }
-            }
-        }
-        result
+        self.r[j] = (u_bar * ring.cos[j] + v_bar * ring.sin[j]) * inverse_h;
+        self.theta[j] = (v_bar * ring.cos[j] - u_bar * ring.sin[j]) * ring.r[j] * inverse_h;
+        u_bar * u + v_bar * v
     }
 
     /// Step 4, last part: the area of the fan.
-    #[inline]
-    fn through_area(&self, area_bar: f64, polar: &mut PolarBars) {
-        let degree = self.spokes.len();
-        let sixth = area_bar / 6.0;
-        for j in 0..neighbourhood::gaps(degree, self.is_boundary) {
-            let next = if j + 1 == degree { 0 } else { j + 1 };
-            let (near, far) = (&self.spokes[j], &self.spokes[next]);
-            let sin = near.cos * far.sin - near.sin * far.cos;
-            let cos = near.cos * far.cos + near.sin * far.sin;
-            polar.r[j] += sixth * far.r * sin;
-            polar.r[next] += sixth * near.r * sin;
-            polar.gap[j] = sixth * near.r * far.r * cos;
+    #[inline(always)]
+    fn through_area(&mut self, ring: &Ring<T>, area_bar: T) {
+        let sixth = area_bar * T::splat(1.0 / 6.0);
+        for j in 0..ring.gaps() {
+            let next = ring.next(j);
+            let sin = ring.cos[j] * ring.sin[next] - ring.sin[j] * ring.cos[next];
+            let cos = ring.cos[j] * ring.cos[next] + ring.sin[j] * ring.sin[next];
+            self.r[j] += sixth * ring.r[next] * sin;
+            self.r[next] += sixth * ring.r[j] * sin;
+            self.gap[j] = sixth * ring.r[j] * ring.r[next] * cos;
         }
     }
 
     /// Step 5: scaled angles -> unscaled angles -> chords.
-    #[inline]
-    fn through_angles(&self, polar: &mut PolarBars, chord_bars: &mut [DVec3; MAX_RING]) {
-        let degree = self.spokes.len();
-        let gaps = neighbourhood::gaps(degree, self.is_boundary);
-        let frame = &self.fit.frame;
+    #[inline(always)]
+    fn through_angles(&mut self, ring: &Ring<T>) {
+        let (degree, gaps) = (ring.degree, ring.gaps());
+        let zero = T::splat(0.0);
         // theta_j = s cum_j, gap_j = s angle_j, s = target / total
-        let mut scale_bar = 0.0;
-        let mut cumulative = 0.0;
+        let (mut scale_bar, mut cumulative) = (zero, zero);
         for j in 0..degree {
-            scale_bar += polar.theta[j] * cumulative + polar.gap[j] * self.spokes[j].angle;
-            cumulative += self.spokes[j].angle;
+            scale_bar += self.theta[j] * cumulative + self.gap[j] * ring.angle[j];
+            cumulative += ring.angle[j];
         }
-        let total_bar = if frame.is_total_true { -scale_bar * frame.scale / frame.total } else { 0.0 };
-        // Angle j turns every later spoke: run backwards over the sum of their theta_bar.
-        let mut later = 0.0;
+        let total_bar = if ring.is_total_true { -(scale_bar * ring.scale / ring.total) } else { zero };
+        // Angle j turns every later chord: run backwards over the sum of their theta_bar.
+        let mut later = zero;
         for j in (0..degree).rev() {
             if j < gaps {
-                let angle_bar = frame.scale * (later + polar.gap[j]) + total_bar;
-                let next = if j + 1 == degree { 0 } else { j + 1 };
-                let (near, far) = (self.chords[j], self.chords[next]);
-                let cross = near.cross(far);
-                let (length, near_r, far_r) = (cross.length(), self.spokes[j].r, self.spokes[next].r);
+                let angle_bar = ring.scale * (later + self.gap[j]) + total_bar;
+                let next = ring.next(j);
+                let (near, far) = (ring.chords[j], ring.chords[next]);
+                let (length, near_r, far_r) = (ring.cross_length[j], ring.r[j], ring.r[next]);
                 // Collinear chords have no plane to turn in.
-                if length > 1e-14 * near_r * far_r {
-                    let nu = cross * (angle_bar / length);
-                    chord_bars[j] -= nu.cross(near) / (near_r * near_r);
-                    chord_bars[next] += nu.cross(far) / (far_r * far_r);
-                }
+                let is_plane = (near_r * far_r * T::splat(1e-14)).less(length);
+                let factor = T::choose(is_plane, angle_bar / length, zero);
+                let nu = ring.cross[j] * factor;
+                let per_near = T::choose(is_plane, T::splat(1.0) / (near_r * near_r), zero);
+                let per_far = T::choose(is_plane, T::splat(1.0) / (far_r * far_r), zero);
+                self.chords[j] -= nu.cross(near) * per_near;
+                self.chords[next] += nu.cross(far) * per_far;
             }
-            later += polar.theta[j];
+            later += self.theta[j];
         }
     }
+
+    /// Step 6: the chord's own length.
+    #[inline(always)]
+    fn through_lengths(&mut self, ring: &Ring<T>) {
+        let zero = T::splat(0.0);
+        for j in 0..ring.degree {
+            let factor = T::choose(zero.less(ring.r[j]), self.r[j] / ring.r[j], zero);
+            self.chords[j] += ring.chords[j] * factor;
+        }
+    }
+}
+
+impl Backward<f64> {
+    /// The same for a fit that needed care.
+    pub(crate) fn run_carefully(&mut self, ring: &Ring<f64>, careful: &CarefulFit, adjoint: &Adjoint<f64>) {
+        let is_filtered = careful.kind == Kind::Filtered;
+        let exceptions = Exceptions {
+            is_area_clamped: careful.is_area_clamped,
+            filter: is_filtered.then(|| filter_bar(ring, &adjoint.d)),
+        };
+        self.clear(ring.degree);
+        match &exceptions.filter {
+            Some(filter) => self.through_filter(ring, &careful.fit, adjoint, filter),
+            None => self.through_fit::<5>(ring, &careful.fit, adjoint),
+        }
+        if !exceptions.is_area_clamped {
+            self.through_area(ring, adjoint.area);
+        }
+        self.through_angles(ring);
+        self.through_lengths(ring);
+    }
+
+    /// Steps 2 to 4 through the spectral filter. Unlike a plain fit it depends on `h`.
+    fn through_filter(
+        &mut self,
+        ring: &Ring<f64>,
+        fit: &Fit<f64>,
+        adjoint: &Adjoint<f64>,
+        filter: &Matrix5<f64>,
+    ) {
+        let x = weights::<f64, 5>(fit, adjoint);
+        let inverse_h = 1.0 / ring.h;
+        let mut h_bar = adjoint.h;
+        for j in 0..ring.degree {
+            let (u, v) = ring.uv(j, inverse_h);
+            let row = ring.basis((u, v));
+            let mut q = Vector::zero();
+            let mut row_bar = [0.0; 5];
+            for i in 0..5 {
+                q += x[i] * row[i];
+                row_bar[i] = ring.chords[j].dot(x[i]) + (0..5).map(|k| filter[i][k] * row[k]).sum::<f64>();
+            }
+            self.chords[j] = q;
+            h_bar -= self.through_basis(ring, j, (u, v), &row_bar, inverse_h) * inverse_h;
+        }
+        let share = h_bar / ring.degree as f64;
+        for r_bar in &mut self.r[..ring.degree] {
+            *r_bar += share;
+        }
+    }
+}
+
+/// Step 2: `X = f(M) D̄`
+#[inline(always)]
+fn weights<T: Real, const N: usize>(fit: &Fit<T>, adjoint: &Adjoint<T>) -> [Vector<T>; 5] {
+    let mut x = [Vector::zero(); 5];
+    for i in 0..N {
+        let mut sum = adjoint.d[0] * fit.inverse[i][0];
+        for k in 1..N {
+            sum += adjoint.d[k] * fit.inverse[i][k];
+        }
+        x[i] = sum;
+    }
+    x
+}
+
+/// `M̄ + M̄ᵀ` of a filtered node: the derivative of the matrix function `f(M)`.
+fn filter_bar(ring: &Ring<f64>, d_bar: &[Vector<f64>; 5]) -> Matrix5<f64> {
+    let (m, b) = fit::careful_moments(ring);
+    let eigen = dense::eigen(&m);
+    let v = &eigen.vectors;
+    // D̄ and Sᵀe in the eigenbasis.
+    let turn = |rows: &[Vector<f64>; 5]| -> [Vector<f64>; 5] {
+        std::array::from_fn(|k| {
+            let mut sum = Vector::zero();
+            for i in 0..5 {
+                sum += rows[i] * v[i][k];
+            }
+            sum
+        })
+    };
+    let (d_turned, b_turned) = (turn(d_bar), turn(&b));
+    let mut inner = Matrix5::<f64>::default();
+    for x in 0..5 {
+        for y in 0..5 {
+            let difference = fit::filter_difference(eigen.values[x], eigen.values[y]);
+            inner[x][y] = difference * (d_turned[x].dot(b_turned[y]) + d_turned[y].dot(b_turned[x]));
+        }
+    }
+    let mut result = Matrix5::<f64>::default();
+    for i in 0..5 {
+        for j in 0..5 {
+            for x in 0..5 {
+                for y in 0..5 {
+                    result[i][j] += v[i][x] * inner[x][y] * v[j][y];
+                }
+            }
+        }
+    }
+    result
 }

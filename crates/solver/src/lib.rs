@@ -16,8 +16,10 @@
     reason = "loops over the indices of a small matrix read like its formula"
 )]
 
+mod angle;
 mod assembly;
 mod barrier;
+mod batch;
 mod cg;
 mod component;
 mod curve;
@@ -26,8 +28,10 @@ mod energy;
 mod error;
 mod factor;
 mod fit;
+mod fits;
 mod gradient;
 mod harmonic;
+mod lanes;
 mod laplacian;
 mod line_search;
 mod neighbourhood;

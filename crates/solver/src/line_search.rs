@@ -6,7 +6,7 @@
 
 use glam::DVec3;
 
-use crate::fit::Fits;
+use crate::fits::{Fits, Wanted};
 use crate::operator::{FIXED, Unknowns};
 use crate::rings::Rings;
 
@@ -35,9 +35,9 @@ pub(crate) fn first_scale(rings: &Rings, fits: &Fits, unknowns: &Unknowns, alpha
     }
     for (slot, from, to) in rings.edges() {
         let shear = (offset(from) - rings.sense(slot) * offset(to)).abs();
-        let length = fits.spokes[slot].r;
+        let length = fits.lengths[slot];
         // An edge of no length would stop everything; measure it by its ring instead.
-        worst = worst.max(shear / length.max(0.1 * fits.nodes[from].frame.h).max(f64::MIN_POSITIVE));
+        worst = worst.max(shear / length.max(0.1 * fits.nodes[from].h).max(f64::MIN_POSITIVE));
     }
     0.5 / worst
 }
@@ -60,7 +60,8 @@ pub(crate) fn search(
         for (&node, &alpha) in unknowns.nodes.iter().zip(alpha) {
             trial_positions[node as usize] += fits.nodes[node as usize].normal * (scale * alpha);
         }
-        trial.refit(rings, trial_positions);
+        // With the gradient, which the next step wants: most first trials are accepted.
+        trial.refit(rings, trial_positions, Wanted::Gradient);
         if trial.energy <= fits.energy + SUFFICIENT * scale * slope {
             return Found { scale, halvings, is_accepted: true };
         }

@@ -1,63 +1,71 @@
-//! The faceted parameterisation: one node's ring unrolled into the plane, lengths kept, angles scaled to fill it.
+//! The faceted parameterisation: a node's ring unrolled into the plane, lengths kept, angles scaled to fill it.
 //!
 //! Source: recipe section 1, after Welch 1995, section 5.3.1. `theta_j = (target / total) * (angle_0 + ... +
 //! angle_{j-1})` with target 2π inside and π on the boundary, where the ring starts and ends on the boundary, so
 //! those two neighbours lie on the ± u axis. The radius is the chord; it is exact on spheres and must not be
 //! corrected by the metric.
 
+use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
+
 use glam::DVec3;
 
-use crate::rings::MAX_RING;
+use crate::angle;
+use crate::lanes::{Real, Vector};
+use crate::rings::{MAX_RING, Rings};
 
 /// Sum of angles below which a ring is a needle without a parameterisation.
 const MIN_TOTAL: f64 = 1e-9;
+/// Sine of the angle between two chords below which they span no plane.
+const COLLINEAR: f64 = 1e-14;
 
-/// One neighbour in polar coordinates.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Spoke {
-    /// Chord length.
-    pub(crate) r: f64,
+/// A node's neighbours in polar coordinates (of two nodes at once where `T` has two lanes); kept and used again.
+///
+/// Entries beyond `degree` are left over from earlier nodes.
+#[derive(Clone, Debug)]
+pub(crate) struct Ring<T> {
+    pub(crate) degree: usize,
+    pub(crate) is_boundary: bool,
+    /// From the node to its neighbours.
+    pub(crate) chords: [Vector<T>; MAX_RING],
+    /// Their lengths.
+    pub(crate) r: [T; MAX_RING],
     /// Cosine and sine of `theta_j`.
-    pub(crate) cos: f64,
-    pub(crate) sin: f64,
-    /// The unscaled angle between this spoke and the next one; 0 for the last spoke of an open ring.
-    pub(crate) angle: f64,
-}
-
-/// What the ring has in common.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Frame {
+    pub(crate) cos: [T; MAX_RING],
+    pub(crate) sin: [T; MAX_RING],
+    /// The unscaled angle between a chord and the next one; 0 for the last chord of an open ring.
+    pub(crate) angle: [T; MAX_RING],
+    /// Cross product of a chord with the next one, and its length.
+    pub(crate) cross: [Vector<T>; MAX_RING],
+    pub(crate) cross_length: [T; MAX_RING],
     /// Mean chord length; `u` and `v` are divided by it.
-    pub(crate) h: f64,
+    pub(crate) h: T,
     /// Sum of the unscaled angles, at least the guard.
-    pub(crate) total: f64,
+    pub(crate) total: T,
     /// `target / total`.
-    pub(crate) scale: f64,
-    /// Whether `total` is the true sum (not the guard).
+    pub(crate) scale: T,
+    /// Whether `total` is the true sum (not the guard), in all lanes.
     pub(crate) is_total_true: bool,
 }
 
-/// The vectors from a node to its ring, on the stack.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Chords {
-    vectors: [DVec3; MAX_RING],
-    count: usize,
-}
-
-impl Chords {
-    #[inline]
-    pub(crate) fn new(positions: &[DVec3], node: usize, ring: &[u32]) -> Self {
-        let centre = positions[node];
-        let mut vectors = [DVec3::ZERO; MAX_RING];
-        for (vector, &far) in vectors.iter_mut().zip(ring) {
-            *vector = positions[far as usize] - centre;
+impl<T: Real> Default for Ring<T> {
+    fn default() -> Self {
+        let zero = T::default();
+        let (numbers, vectors) = ([zero; MAX_RING], [Vector::zero(); MAX_RING]);
+        Self {
+            degree: 0,
+            is_boundary: false,
+            chords: vectors,
+            r: numbers,
+            cos: numbers,
+            sin: numbers,
+            angle: numbers,
+            cross: vectors,
+            cross_length: numbers,
+            h: zero,
+            total: zero,
+            scale: zero,
+            is_total_true: false,
         }
-        Self { vectors, count: ring.len().min(MAX_RING) }
-    }
-
-    #[inline]
-    pub(crate) fn all(&self) -> &[DVec3] {
-        &self.vectors[..self.count]
     }
 }
 
@@ -67,38 +75,91 @@ pub(crate) fn gaps(degree: usize, is_boundary: bool) -> usize {
     if is_boundary { degree.saturating_sub(1) } else { degree }
 }
 
-/// The angle the scaled ring fills.
-#[inline]
-pub(crate) fn target(is_boundary: bool) -> f64 {
-    if is_boundary { std::f64::consts::PI } else { 2.0 * std::f64::consts::PI }
-}
+impl<T: Real> Ring<T> {
+    /// Takes the chords of one node per lane; all have the same degree and lie inside or on the boundary alike.
+    #[inline(always)]
+    pub(crate) fn load(&mut self, rings: &Rings, positions: &[DVec3], nodes: [u32; 2]) {
+        let nodes = nodes.map(|node| node as usize);
+        let near = rings.ring(nodes[0]);
+        let far = rings.ring(nodes[T::LANES - 1]);
+        self.degree = near.len().min(far.len()).min(MAX_RING);
+        self.is_boundary = rings.is_boundary(nodes[0]);
+        let centre = Vector::<T>::gather(|lane| positions[nodes[lane]]);
+        for (chord, (&first, &second)) in self.chords.iter_mut().zip(near.iter().zip(far)) {
+            let end = Vector::gather(|lane| positions[if lane == 0 { first } else { second } as usize]);
+            *chord = end - centre;
+        }
+    }
 
-/// Unrolls one ring into `spokes`.
-#[inline]
-pub(crate) fn unroll(chords: &[DVec3], is_boundary: bool, spokes: &mut [Spoke]) -> Frame {
-    let degree = chords.len();
-    let gaps = gaps(degree, is_boundary);
-    let mut sum_r = 0.0;
-    for (spoke, chord) in spokes.iter_mut().zip(chords) {
-        spoke.r = chord.length();
-        spoke.angle = 0.0;
-        sum_r += spoke.r;
+    /// Number of angles.
+    #[inline(always)]
+    pub(crate) fn gaps(&self) -> usize {
+        gaps(self.degree, self.is_boundary)
     }
-    let mut total = 0.0;
-    for j in 0..gaps {
-        let next = if j + 1 == degree { 0 } else { j + 1 };
-        // Never by arc cosine: this form keeps its digits near 0 and π.
-        let angle = libm::atan2(chords[j].cross(chords[next]).length(), chords[j].dot(chords[next]));
-        spokes[j].angle = angle;
-        total += angle;
+
+    /// The neighbour after `j`.
+    #[inline(always)]
+    pub(crate) fn next(&self, j: usize) -> usize {
+        if j + 1 == self.degree { 0 } else { j + 1 }
     }
-    let is_total_true = total >= MIN_TOTAL;
-    let total = if is_total_true { total } else { MIN_TOTAL };
-    let scale = target(is_boundary) / total;
-    let mut cumulative = 0.0;
-    for spoke in spokes.iter_mut() {
-        (spoke.sin, spoke.cos) = libm::sincos(scale * cumulative);
-        cumulative += spoke.angle;
+
+    /// Unrolls the loaded chords. True where every lane is free of the exceptions that ask for care.
+    #[inline(always)]
+    pub(crate) fn unroll(&mut self) -> bool {
+        let (degree, gaps) = (self.degree, self.gaps());
+        let zero = T::splat(0.0);
+        let mut sum_r = zero;
+        for j in 0..degree {
+            self.r[j] = self.chords[j].length();
+            sum_r += self.r[j];
+        }
+        let mut total = zero;
+        let mut is_ordinary = true;
+        for j in 0..gaps {
+            let next = self.next(j);
+            let cross = self.chords[j].cross(self.chords[next]);
+            let length = cross.length();
+            let found = angle::angle(length, self.chords[j].dot(self.chords[next]));
+            // Two chords without length have no angle: the quotient is NaN there.
+            let found = T::choose(found.less(T::splat(4.0)), found, zero);
+            is_ordinary &= T::all((self.r[j] * self.r[next] * T::splat(COLLINEAR)).less(length));
+            self.cross[j] = cross;
+            self.cross_length[j] = length;
+            self.angle[j] = found;
+            total += found;
+        }
+        if self.is_boundary && degree > 0 {
+            self.angle[degree - 1] = zero;
+        }
+        let is_true = T::splat(MIN_TOTAL).less(total);
+        self.is_total_true = T::all(is_true);
+        self.total = T::choose(is_true, total, T::splat(MIN_TOTAL));
+        self.scale = T::splat(if self.is_boundary { PI } else { TAU }) / self.total;
+        self.h = sum_r / T::splat(degree as f64);
+        let mut cumulative = zero;
+        for j in 0..degree {
+            (self.sin[j], self.cos[j]) = angle::direction(self.scale * cumulative);
+            cumulative += self.angle[j];
+        }
+        is_ordinary && self.is_total_true
     }
-    Frame { h: sum_r / degree as f64, total, scale, is_total_true }
+
+    /// Coordinates of a neighbour, divided by `h`; `inverse_h` is `1 / h`.
+    #[inline(always)]
+    pub(crate) fn uv(&self, j: usize, inverse_h: T) -> (T, T) {
+        let radius = self.r[j] * inverse_h;
+        (radius * self.cos[j], radius * self.sin[j])
+    }
+
+    /// The row of the quadratic's basis at normalised coordinates; on the boundary it has three entries.
+    #[inline(always)]
+    pub(crate) fn basis(&self, (u, v): (T, T)) -> [T; 5] {
+        let half = T::splat(0.5);
+        if self.is_boundary {
+            let zero = T::splat(0.0);
+            [u, v, half * u * u, zero, zero]
+        } else {
+            [u, v, half * u * u, T::splat(FRAC_1_SQRT_2) * u * v, half * v * v]
+        }
+    }
 }

@@ -5,7 +5,7 @@
 //! when they served badly (more than 10 iterations) or when edges changed by more than 20 %; the ordering is made once.
 
 use crate::factor::FactorError;
-use crate::fit::Fits;
+use crate::fits::Fits;
 use crate::laplacian::{Acting, Laplacian, Weights};
 use crate::operator::Unknowns;
 use crate::rings::Rings;
@@ -41,19 +41,15 @@ impl Preconditioner {
         shift: impl Fn(usize, f64) -> f64,
     ) -> Result<(), FactorError> {
         let limit = if self.served_badly { WORTH_STRETCH } else { STALE_STRETCH };
-        let is_fresh = self.lengths.len() == fits.spokes.len()
+        let is_fresh = self.lengths.len() == fits.lengths.len()
             && !self.lengths.is_empty()
-            && fits
-                .spokes
-                .iter()
-                .zip(&self.lengths)
-                .all(|(spoke, &old)| (spoke.r - old).abs() <= limit * old);
+            && fits.lengths.iter().zip(&self.lengths).all(|(new, &old)| (new - old).abs() <= limit * old);
         if is_fresh {
             return Ok(());
         }
         self.laplacian.refresh(&fits.positions, Weights::Cotangent, shift)?;
         self.lengths.clear();
-        self.lengths.extend(fits.spokes.iter().map(|spoke| spoke.r));
+        self.lengths.extend_from_slice(&fits.lengths);
         self.mass.clear();
         let areas = unknowns.nodes.iter().map(|&node| fits.nodes[node as usize].area);
         self.mass.extend(areas);

@@ -9,7 +9,7 @@ use glam::DVec3;
 use crate::assembly::Assembly;
 use crate::cg::{self, Limit, Outcome, Workspace};
 use crate::error::{SolverError, check_finite};
-use crate::fit::Fits;
+use crate::fits::Fits;
 use crate::operator::{FIXED, Unknowns};
 use crate::precondition::Preconditioner;
 use crate::rings::Rings;
@@ -130,7 +130,7 @@ pub(crate) fn strain(rings: &Rings, fits: &Fits, unknowns: &Unknowns, field: &[D
         if unknowns.index[from] == FIXED && unknowns.index[to] == FIXED {
             continue;
         }
-        let length = fits.spokes[slot].r.max(0.1 * fits.nodes[from].frame.h).max(f64::MIN_POSITIVE);
+        let length = fits.lengths[slot].max(0.1 * fits.nodes[from].h).max(f64::MIN_POSITIVE);
         worst = worst.max((field[from] - field[to]).length() / length);
     }
     worst

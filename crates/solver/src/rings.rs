@@ -20,6 +20,8 @@ use std::ops::Range;
 
 use thiserror::Error;
 
+use crate::batch::{self, Batch};
+
 /// Largest ring the solver accepts; mesh operations have to refuse what exceeds it.
 pub const MAX_RING: usize = 24;
 
@@ -55,6 +57,8 @@ pub struct Rings {
     senses: Vec<f64>,
     is_boundary: Vec<bool>,
     triangles: Vec<[u32; 3]>,
+    batches: Vec<Batch>,
+    is_mixed: bool,
 }
 
 impl Rings {
@@ -88,7 +92,7 @@ impl Rings {
             offsets.push(compact(neighbours.len())?);
         }
         let senses = senses(&offsets, &neighbours, &is_boundary)?;
-        Ok(Self { offsets, neighbours, senses, is_boundary, triangles: triangles.to_vec() })
+        Ok(Self::assemble(offsets, neighbours, senses, is_boundary, triangles.to_vec()))
     }
 
     /// Takes rings that the caller already has: node `i` owns `neighbours[offsets[i]..offsets[i + 1]]`.
@@ -121,7 +125,20 @@ impl Rings {
             return Err(RingError::UnknownNode(node));
         }
         let senses = senses(&offsets, &neighbours, &is_boundary)?;
-        Ok(Self { offsets, neighbours, senses, is_boundary, triangles })
+        Ok(Self::assemble(offsets, neighbours, senses, is_boundary, triangles))
+    }
+
+    fn assemble(
+        offsets: Vec<u32>,
+        neighbours: Vec<u32>,
+        senses: Vec<f64>,
+        is_boundary: Vec<bool>,
+        triangles: Vec<[u32; 3]>,
+    ) -> Self {
+        let degrees = offsets.windows(2).map(|pair| (pair[1] - pair[0]) as usize);
+        let batches = batch::pair(degrees.zip(is_boundary.iter().copied()));
+        let is_mixed = senses.iter().any(|&sense| sense < 0.0);
+        Self { offsets, neighbours, senses, is_boundary, triangles, batches, is_mixed }
     }
 
     /// Number of nodes.
@@ -169,9 +186,19 @@ impl Rings {
         self.neighbours.len()
     }
 
+    /// The nodes, by twos of the same kind.
+    pub(crate) fn batches(&self) -> &[Batch] {
+        &self.batches
+    }
+
     /// Per spoke of `node`: +1 when the ring at the far end turns the same way, -1 when it turns the other way.
     pub(crate) fn senses(&self, node: usize) -> &[f64] {
         &self.senses[self.slots(node)]
+    }
+
+    /// Whether any spoke joins rings of different senses.
+    pub(crate) fn is_mixed(&self) -> bool {
+        self.is_mixed
     }
 
     /// The sense of one spoke.

@@ -5,8 +5,8 @@
 
 use glam::DVec3;
 
-use crate::fit::{Fits, NodeFit};
-use crate::neighbourhood::{self, Spoke};
+use crate::fit::{self, CarefulFit};
+use crate::neighbourhood::Ring;
 use crate::rings::Rings;
 
 /// Moves shorter than this, in units of the local mean edge, creep on for ever and are left out.
@@ -31,7 +31,6 @@ pub struct SmoothReport {
 /// One sweep; every node moves from the old positions, so the order does not matter.
 pub(crate) fn smooth(
     rings: &Rings,
-    fits: &Fits,
     positions: &mut [DVec3],
     movable: &[bool],
     fraction: f64,
@@ -39,17 +38,19 @@ pub(crate) fn smooth(
 ) -> SmoothReport {
     assert_eq!(movable.len(), rings.len(), "one flag per node");
     let mut report = SmoothReport::default();
-    for (node, fit) in fits.nodes.iter().enumerate() {
-        if !movable[node] || !fit.is_fitted() {
+    let old = positions.to_vec();
+    let mut ring = Ring::default();
+    for (node, _) in (0_u32..).zip(movable).filter(|(_, movable)| **movable) {
+        let careful = fit_at(rings, &old, node, &mut ring);
+        if !careful.is_fitted() {
             continue;
         }
-        let spokes = &fits.spokes[rings.slots(node)];
-        let (u, v) = if rings.is_boundary(node) {
+        let (node, fit) = (node as usize, &careful.fit);
+        let (u, v) = if ring.is_boundary {
             // Along the boundary only: its two neighbours lie on the u axis.
-            let ends = spokes.first().zip(spokes.last());
-            (ends.map_or(0.0, |(first, last)| 0.5 * (first.r - last.r) / fit.frame.h), 0.0)
+            (0.5 * (ring.r[0] - ring.r[ring.degree - 1]) / ring.h, 0.0)
         } else {
-            centroid(rings, node, fit, spokes, lengths)
+            centroid(rings, node, &ring, lengths)
         };
         let (u, v) = (fraction * u, fraction * v);
         let distance = (u * u + v * v).sqrt();
@@ -69,43 +70,42 @@ pub(crate) fn smooth(
 }
 
 /// Area centroid of the fan in normalised coordinates, triangles weighed by `area / h*²` if lengths are given.
-fn centroid(
-    rings: &Rings,
-    node: usize,
-    fit: &NodeFit,
-    spokes: &[Spoke],
-    lengths: Option<&[f64]>,
-) -> (f64, f64) {
+fn centroid(rings: &Rings, node: usize, unrolled: &Ring<f64>, lengths: Option<&[f64]>) -> (f64, f64) {
     let ring = rings.ring(node);
-    let h = fit.frame.h;
+    let Ring { r, cos, sin, h, .. } = unrolled;
     let (mut sum_u, mut sum_v, mut sum) = (0.0, 0.0, 0.0);
-    for j in 0..neighbourhood::gaps(spokes.len(), false) {
-        let next = if j + 1 == spokes.len() { 0 } else { j + 1 };
-        let (near, far) = (&spokes[j], &spokes[next]);
-        let area = near.r * far.r * (near.cos * far.sin - near.sin * far.cos);
+    for j in 0..unrolled.gaps() {
+        let next = unrolled.next(j);
+        let area = r[j] * r[next] * (cos[j] * sin[next] - sin[j] * cos[next]);
         let weight = lengths.map_or(1.0, |lengths| {
             let wanted = (lengths[node] + lengths[ring[j] as usize] + lengths[ring[next] as usize]) / 3.0;
             1.0 / (wanted * wanted)
         });
         let mass = area.max(0.0) * weight;
         sum += mass;
-        sum_u += mass * (near.r * near.cos + far.r * far.cos);
-        sum_v += mass * (near.r * near.sin + far.r * far.sin);
+        sum_u += mass * (r[j] * cos[j] + r[next] * cos[next]);
+        sum_v += mass * (r[j] * sin[j] + r[next] * sin[next]);
     }
     if sum > 0.0 { (sum_u / (3.0 * sum * h), sum_v / (3.0 * sum * h)) } else { (0.0, 0.0) }
 }
 
+/// The fit of one node, and its ring unrolled.
+fn fit_at(rings: &Rings, positions: &[DVec3], node: u32, ring: &mut Ring<f64>) -> CarefulFit {
+    ring.load(rings, positions, [node; 2]);
+    fit::fit_carefully(ring)
+}
+
 /// The middle of an edge plus the mean of what both quadratics rise above their chord there.
-pub(crate) fn place_on_edge(rings: &Rings, fits: &Fits, positions: &[DVec3], a: u32, b: u32) -> DVec3 {
+pub(crate) fn place_on_edge(rings: &Rings, positions: &[DVec3], a: u32, b: u32) -> DVec3 {
     let middle = 0.5 * (positions[a as usize] + positions[b as usize]);
-    let rise = |node: u32, far: u32| {
-        let fit = &fits.nodes[node as usize];
+    let mut ring = Ring::default();
+    let mut rise = |node: u32, far: u32| {
         let place = rings.ring(node as usize).iter().position(|&other| other == far)?;
-        let spoke = &fits.spokes[rings.slots(node as usize)][place];
-        let (u, v) = (spoke.r * spoke.cos / fit.frame.h, spoke.r * spoke.sin / fit.frame.h);
+        let careful = fit_at(rings, positions, node, &mut ring);
+        let (u, v) = ring.uv(place, 1.0 / ring.h);
         // q(t) = second(t): q(1/2) - q(1)/2 = -second/4, whatever the linear part.
-        let rise = fit.evaluate(u, v, 0.0) * -0.25;
-        (fit.is_fitted() && rise.is_finite()).then_some(rise)
+        let rise = careful.fit.evaluate(u, v, 0.0) * -0.25;
+        (careful.is_fitted() && rise.is_finite()).then_some(rise)
     };
     match (rise(a, b), rise(b, a)) {
         (Some(one), Some(other)) => middle + 0.5 * (one + other),

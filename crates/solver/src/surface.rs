@@ -21,8 +21,8 @@ use crate::cg::{self, Limit, Workspace};
 use crate::component::{Components, Looseness};
 use crate::error::{Budget, Settings, SolverError, check_length, check_positions};
 use crate::factor::FactorError;
-use crate::fit::{Curvature, Fits};
-use crate::gradient::gradient;
+use crate::fit::Curvature;
+use crate::fits::{Fits, Wanted};
 use crate::laplacian::Acting;
 use crate::line_search;
 use crate::operator::Unknowns;
@@ -64,7 +64,6 @@ pub struct SurfaceSolver {
     trial: Fits,
     trial_positions: Vec<DVec3>,
     normals: Vec<DVec3>,
-    gradient: Vec<DVec3>,
     /// `-g/2` per unknown, and the direction.
     rhs: Vec<f64>,
     alpha: Vec<f64>,
@@ -89,7 +88,6 @@ impl SurfaceSolver {
             trial: Fits::new(&rings),
             trial_positions: vec![DVec3::ZERO; rings.len()],
             normals: vec![DVec3::Z; rings.len()],
-            gradient: vec![DVec3::ZERO; rings.len()],
             rhs: Vec::new(),
             alpha: Vec::new(),
             workspace: Workspace::default(),
@@ -143,7 +141,7 @@ impl SurfaceSolver {
         if moves.iter().all(|&(_, displacement)| displacement == DVec3::ZERO) {
             return Ok(Predicted { fraction: 1.0, ..Predicted::default() });
         }
-        self.refit(positions);
+        self.refit(positions, Wanted::Gradient);
         self.prepare()?;
         self.assembly.assemble(&self.rings, &self.fits, Rows::Field, |_| 0.0);
         let limit = Limit {
@@ -173,7 +171,7 @@ impl SurfaceSolver {
     /// One non-linear step. Never raises the energy; a failed search leaves the positions alone.
     pub fn step(&mut self, positions: &mut [DVec3], budget: Budget) -> Result<StepReport, SolverError> {
         check_positions(self.rings.len(), positions)?;
-        self.refit(positions);
+        self.refit(positions, Wanted::Gradient);
         self.slopes();
         let looseness = self.components.looseness(positions, &self.fixed);
         self.prepare()?;
@@ -211,7 +209,7 @@ impl SurfaceSolver {
     /// When there is not one position per node.
     pub fn fit_all(&mut self, positions: &[DVec3]) {
         assert_eq!(positions.len(), self.rings.len(), "one position per node");
-        self.refit(positions);
+        self.refit(positions, Wanted::Energy);
     }
 
     /// Unit normals of the newest fit, towards the side from which the rings run counter-clockwise.
@@ -236,8 +234,12 @@ impl SurfaceSolver {
 
     /// Exact `dE/dp` of every node in the newest fit, and the energy.
     pub fn gradient(&mut self) -> &[DVec3] {
-        gradient(&self.rings, &self.fits, &mut self.gradient);
-        &self.gradient
+        let positions = std::mem::take(&mut self.trial_positions);
+        let mut here = positions;
+        here.copy_from_slice(&self.fits.positions);
+        self.fits.refit(&self.rings, &here, Wanted::Gradient);
+        self.trial_positions = here;
+        &self.fits.gradient
     }
 
     /// Moves nodes along the fitted surface towards the middle of their rings (recipe, section 7).
@@ -263,7 +265,7 @@ impl SurfaceSolver {
         lengths: Option<&[f64]>,
     ) -> SmoothReport {
         self.fit_all(positions);
-        let report = smooth::smooth(&self.rings, &self.fits, positions, movable, fraction, lengths);
+        let report = smooth::smooth(&self.rings, positions, movable, fraction, lengths);
         if report.moved > 0 {
             self.quiet_steps = 0;
         }
@@ -274,7 +276,7 @@ impl SurfaceSolver {
     ///
     /// Uses the newest fit. The plain middle when the nodes are not neighbours or have no fit.
     pub fn place_on_edge(&self, positions: &[DVec3], a: u32, b: u32) -> DVec3 {
-        smooth::place_on_edge(&self.rings, &self.fits, positions, a, b)
+        smooth::place_on_edge(&self.rings, positions, a, b)
     }
 
     /// The place of a node's fitted quadratic nearest to a given one: what a place pointed at on the facets means.
@@ -286,8 +288,8 @@ impl SurfaceSolver {
     }
 
     /// Fits at these positions, and the normals that go with them.
-    fn refit(&mut self, positions: &[DVec3]) {
-        self.fits.refit(&self.rings, positions);
+    fn refit(&mut self, positions: &[DVec3], wanted: Wanted) {
+        self.fits.refit(&self.rings, positions, wanted);
         for (normal, fit) in self.normals.iter_mut().zip(&self.fits.nodes) {
             *normal = fit.normal;
         }
@@ -295,10 +297,9 @@ impl SurfaceSolver {
 
     /// Right-hand side `-g/2` from the exact gradient along the normals.
     fn slopes(&mut self) {
-        gradient(&self.rings, &self.fits, &mut self.gradient);
         self.rhs.clear();
         let slope =
-            |&node: &u32| -0.5 * self.gradient[node as usize].dot(self.fits.nodes[node as usize].normal);
+            |&node: &u32| -0.5 * self.fits.gradient[node as usize].dot(self.fits.nodes[node as usize].normal);
         self.rhs.extend(self.unknowns.nodes.iter().map(slope));
     }
 
@@ -364,7 +365,7 @@ impl SurfaceSolver {
         for (&node, &alpha) in self.unknowns.nodes.iter().zip(&self.alpha) {
             let distance = found.scale * alpha.abs();
             report.largest_move = report.largest_move.max(distance);
-            let h = self.fits.nodes[node as usize].frame.h;
+            let h = self.fits.nodes[node as usize].h;
             report.largest_relative_move = report.largest_relative_move.max(distance / h);
         }
         std::mem::swap(&mut self.fits, &mut self.trial);
@@ -396,8 +397,7 @@ fn mass(
 
 /// Rings of mixed senses need a second preconditioner for scalar fields.
 fn field_preconditioner(rings: &Rings, unknowns: &Unknowns) -> Result<Option<Preconditioner>, FactorError> {
-    let is_mixed = (0..rings.spokes()).any(|slot| rings.sense(slot) < 0.0);
-    is_mixed.then(|| Preconditioner::new(rings, unknowns, Acting::OnField)).transpose()
+    rings.is_mixed().then(|| Preconditioner::new(rings, unknowns, Acting::OnField)).transpose()
 }
 
 fn unknowns(rings: &Rings, fixed: &[bool]) -> Unknowns {

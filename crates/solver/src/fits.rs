@@ -1,0 +1,303 @@
+//! The fits of all nodes at one set of positions, with energy, gradient and curvature rows: one sweep makes them all.
+//!
+//! Fit and gradient share everything that is dear (chords, angles, the inverse), so the gradient is taken while the
+//! fit is still at hand. What later work needs is kept: a short summary per node, the chord lengths, and the rows from
+//! which the matrix is assembled. Two ordinary nodes go through together; a pair in which either is out of the
+//! ordinary goes through one by one, with care.
+
+use glam::DVec3;
+
+use crate::barrier;
+use crate::batch::Batch;
+use crate::energy::thin_plate;
+use crate::fit::{self, CarefulFit, Curvature, Fit, Kind};
+use crate::gradient::Backward;
+use crate::lanes::{Pair, Real};
+use crate::neighbourhood::Ring;
+use crate::rings::Rings;
+
+/// What a sweep should make.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Wanted {
+    /// Fits and energy.
+    Energy,
+    /// The gradient and the rows too.
+    Gradient,
+}
+
+/// What is kept of a node's fit.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Node {
+    pub(crate) normal: DVec3,
+    /// Thin plate plus barrier.
+    pub(crate) energy: f64,
+    /// One third of the parametric fan.
+    pub(crate) area: f64,
+    /// Mean chord.
+    pub(crate) h: f64,
+    /// `|s_u × s_v|`.
+    pub(crate) jacobian: f64,
+    /// `(L11, √2 L12, L22)`.
+    pub(crate) l: [f64; 3],
+}
+
+impl Node {
+    /// Mean and Gaussian curvature. The mean curvature is negative where the normal points out of a sphere.
+    #[inline]
+    pub(crate) fn curvature(&self) -> Curvature {
+        Curvature::new(self.l)
+    }
+}
+
+/// The three rows of one column of a neighbourhood's curvature, for both nodes of a batch.
+pub(crate) type Row = [[f64; 2]; 3];
+
+/// The fits of all nodes.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Fits {
+    pub(crate) nodes: Vec<Node>,
+    /// Chord length per spoke.
+    pub(crate) lengths: Vec<f64>,
+    /// Where the fits were made.
+    pub(crate) positions: Vec<DVec3>,
+    /// Sum over all nodes, in index order.
+    pub(crate) energy: f64,
+    /// `dE/dp` of every node, if it was wanted.
+    pub(crate) gradient: Vec<DVec3>,
+    /// Per batch the rows `√a Z` of its neighbours; in the centre's place `√a L²`, what an offset of the node adds.
+    pub(crate) rows: Vec<Row>,
+    has_gradient: bool,
+}
+
+/// Scratch of a sweep.
+#[derive(Debug, Default)]
+struct Sweep {
+    pair: Ring<Pair>,
+    pair_back: Backward<Pair>,
+    single: Ring<f64>,
+    single_back: Backward<f64>,
+}
+
+impl Fits {
+    /// Room for one connectivity.
+    pub(crate) fn new(rings: &Rings) -> Self {
+        let rows = rings.batches().last().map_or(0, |batch| batch.rows().end);
+        Self {
+            nodes: vec![Node::default(); rings.len()],
+            lengths: vec![0.0; rings.spokes()],
+            positions: vec![DVec3::NAN; rings.len()],
+            energy: f64::NAN,
+            gradient: vec![DVec3::ZERO; rings.len()],
+            rows: vec![Row::default(); rows],
+            has_gradient: false,
+        }
+    }
+
+    /// Fits every node, unless the last call did so at these positions.
+    pub(crate) fn refit(&mut self, rings: &Rings, positions: &[DVec3], wanted: Wanted) {
+        if self.positions == positions && (self.has_gradient || wanted == Wanted::Energy) {
+            return;
+        }
+        self.positions.copy_from_slice(positions);
+        self.has_gradient = wanted == Wanted::Gradient;
+        if self.has_gradient {
+            self.gradient.fill(DVec3::ZERO);
+        }
+        let mut sweep = Sweep::default();
+        for batch in rings.batches() {
+            let is_done = match (batch.is_regular(), batch.is_boundary) {
+                (false, _) => false,
+                (true, false) => self.fit_pair::<5>(rings, batch, &mut sweep),
+                (true, true) => self.fit_pair::<3>(rings, batch, &mut sweep),
+            };
+            if !is_done {
+                for lane in 0..batch.count {
+                    self.fit_single(rings, batch, lane, &mut sweep);
+                }
+            }
+        }
+        self.energy = self.nodes.iter().map(|node| node.energy).sum();
+    }
+
+    /// Both nodes of a batch at once; false, and nothing written, when either is out of the ordinary.
+    #[inline(always)]
+    fn fit_pair<const N: usize>(&mut self, rings: &Rings, batch: &Batch, sweep: &mut Sweep) -> bool {
+        let ring = &mut sweep.pair;
+        ring.load(rings, &self.positions, batch.nodes);
+        if !ring.unroll() {
+            return false;
+        }
+        let (fit, is_ordinary) = fit::fit_ordinary::<Pair, N>(ring);
+        if !is_ordinary {
+            return false;
+        }
+        let energy = thin_plate::value(&fit);
+        for lane in 0..batch.count {
+            let node = batch.nodes[lane] as usize;
+            self.nodes[node] = Node {
+                normal: fit.normal.lane(lane),
+                energy: energy.lane(lane),
+                area: fit.area.lane(lane),
+                h: ring.h.lane(lane),
+                jacobian: fit.jacobian.lane(lane),
+                l: fit.l.map(|l| l.lane(lane)),
+            };
+            self.keep_lengths(rings, node, lane, ring);
+        }
+        if self.has_gradient {
+            let adjoint = thin_plate::adjoint(&fit, ring.h, Pair::splat(0.0));
+            sweep.pair_back.run::<N>(ring, &fit, &adjoint);
+            for lane in 0..batch.count {
+                self.scatter(rings, batch.nodes[lane], lane, &sweep.pair_back);
+            }
+            let rows = &mut self.rows[batch.rows()];
+            write_rows::<Pair, N>(ring, &fit, |j, c, value| rows[j][c] = value.to_array());
+        }
+        true
+    }
+
+    /// One node of a batch, with care.
+    #[inline(never)]
+    fn fit_single(&mut self, rings: &Rings, batch: &Batch, lane: usize, sweep: &mut Sweep) {
+        let index = batch.nodes[lane];
+        let node = index as usize;
+        let ring = &mut sweep.single;
+        ring.load(rings, &self.positions, [index; 2]);
+        let careful = fit::fit_carefully(ring);
+        let fit = &careful.fit;
+        self.nodes[node] = Node {
+            normal: fit.normal.lane(0),
+            energy: energy_of(&careful),
+            area: fit.area,
+            h: if ring.degree < 2 { 0.0 } else { ring.h },
+            jacobian: fit.jacobian,
+            l: fit.l,
+        };
+        self.keep_lengths(rings, node, 0, ring);
+        if !self.has_gradient {
+            return;
+        }
+        let rows = &mut self.rows[batch.rows()];
+        for row in rows.iter_mut() {
+            for value in row {
+                value[lane] = 0.0;
+            }
+        }
+        if careful.is_fitted() {
+            write_rows::<f64, 5>(ring, fit, |j, c, value| rows[j][c][lane] = value);
+            let adjoint = thin_plate::adjoint(fit, ring.h, barrier::slope(fit.jacobian));
+            sweep.single_back.run_carefully(ring, &careful, &adjoint);
+            self.scatter(rings, index, 0, &sweep.single_back);
+        }
+    }
+
+    #[inline(always)]
+    fn keep_lengths<T: Real>(&mut self, rings: &Rings, node: usize, lane: usize, ring: &Ring<T>) {
+        for (length, r) in self.lengths[rings.slots(node)].iter_mut().zip(&ring.r) {
+            *length = r.lane(lane);
+        }
+    }
+
+    /// Adds what a node's chords feel to their ends.
+    #[inline(always)]
+    fn scatter<T: Real>(&mut self, rings: &Rings, node: u32, lane: usize, back: &Backward<T>) {
+        let mut sum = DVec3::ZERO;
+        for (&far, bar) in rings.ring(node as usize).iter().zip(&back.chords) {
+            let bar = bar.lane(lane);
+            self.gradient[far as usize] += bar;
+            sum += bar;
+        }
+        self.gradient[node as usize] -= sum;
+    }
+}
+
+/// Thin plate and barrier of a fit made with care.
+fn energy_of(careful: &CarefulFit) -> f64 {
+    match careful.kind {
+        Kind::Flat => 0.0,
+        Kind::Folded => barrier::value(careful.fit.jacobian),
+        Kind::Plain | Kind::Filtered => {
+            thin_plate::value(&careful.fit) + barrier::value(careful.fit.jacobian)
+        }
+    }
+}
+
+/// The rows `√a Z / h²` of the neighbours, and `√a L²` in the centre's place.
+#[inline(always)]
+fn write_rows<T: Real, const N: usize>(ring: &Ring<T>, fit: &Fit<T>, mut write: impl FnMut(usize, usize, T)) {
+    let root = fit.area.sqrt();
+    let squared = fit::square(fit.l);
+    for c in 0..3 {
+        write(0, c, root * squared[c]);
+    }
+    let inverse_h = T::splat(1.0) / ring.h;
+    let factor = root * inverse_h * inverse_h;
+    for j in 0..ring.degree {
+        let basis = ring.basis(ring.uv(j, inverse_h));
+        for c in 0..3 {
+            let mut sum = T::splat(0.0);
+            if c + 2 < N {
+                let weights = &fit.inverse[c + 2];
+                sum = weights[0] * basis[0];
+                for i in 1..N {
+                    sum += weights[i] * basis[i];
+                }
+            }
+            write(j + 1, c, sum * factor);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::workload::{self, Stream};
+
+    /// A shape with ordinary, filtered, folded and boundary nodes.
+    fn rough() -> (Rings, Vec<DVec3>) {
+        let disc = workload::disc(6);
+        let mut stream = Stream::new(3);
+        let positions = disc.positions.iter().map(|p| *p + 0.12 * stream.vector()).collect();
+        (Rings::from_triangles(disc.positions.len(), &disc.triangles).unwrap(), positions)
+    }
+
+    #[test]
+    fn pairs_and_single_nodes_agree() {
+        let (rings, positions) = rough();
+        let mut together = Fits::new(&rings);
+        together.refit(&rings, &positions, Wanted::Gradient);
+        let mut alone = Fits::new(&rings);
+        alone.positions.copy_from_slice(&positions);
+        alone.has_gradient = true;
+        let mut sweep = Sweep::default();
+        for batch in rings.batches() {
+            for lane in 0..batch.count {
+                alone.fit_single(&rings, batch, lane, &mut sweep);
+            }
+        }
+        for (a, b) in together.nodes.iter().zip(&alone.nodes) {
+            assert!((a.energy - b.energy).abs() <= 1e-12 * b.energy.max(1.0));
+            assert!(a.normal.distance(b.normal) < 1e-13);
+        }
+        let scale = alone.gradient.iter().map(|g| g.length()).fold(0.0, f64::max);
+        for (a, b) in together.gradient.iter().zip(&alone.gradient) {
+            assert!(a.distance(*b) <= 1e-12 * scale);
+        }
+        for (a, b) in together.rows.iter().flatten().zip(alone.rows.iter().flatten()) {
+            assert!((a[0] - b[0]).abs() <= 1e-11 * b[0].abs().max(1.0));
+        }
+        assert!(together.nodes.iter().any(|node| node.jacobian < barrier::START), "some need care");
+    }
+
+    #[test]
+    fn a_sweep_without_gradient_is_not_mistaken_for_one_with() {
+        let (rings, positions) = rough();
+        let mut fits = Fits::new(&rings);
+        fits.refit(&rings, &positions, Wanted::Energy);
+        assert!(fits.gradient.iter().all(|g| *g == DVec3::ZERO));
+        let energy = fits.energy;
+        fits.refit(&rings, &positions, Wanted::Gradient);
+        assert!(fits.gradient.iter().any(|g| *g != DVec3::ZERO));
+        assert_eq!(fits.energy.to_bits(), energy.to_bits());
+    }
+}
