@@ -8,7 +8,8 @@
 //! hashes them and must not see the width of a pointer. Looked at and not taken: `sprs-ldl` (licence), the solver
 //! inside `clarabel` (an interior-point package for the sake of one module).
 //!
-//! The symbolic factor is kept while the pattern is unchanged; only numbers are refreshed.
+//! The symbolic factor is kept while the pattern is unchanged; only numbers are refreshed. The triangular solves are
+//! our own ([`Blocks`]).
 
 use std::sync::Arc;
 
@@ -16,11 +17,14 @@ use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::llt::factor::LltRegularization;
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
+    CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
+    factorize_symbolic_cholesky,
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
-use faer::{Conj, MatMut, Par, Side};
+use faer::{Par, Side};
 use thiserror::Error;
+
+use crate::blocks::Blocks;
 
 /// The matrix could not be factorised: not positive definite, or too large for 32-bit indices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
@@ -32,6 +36,10 @@ pub(crate) struct Cholesky {
     pattern: SymbolicSparseColMat<u32>,
     symbolic: Arc<SymbolicCholesky<u32>>,
     factor: Vec<f64>,
+    blocks: Blocks,
+    /// Per place in the factor's order the unknown that sits there.
+    order: Arc<[u32]>,
+    ordered: Vec<f64>,
     scratch: MemBuffer,
 }
 
@@ -47,6 +55,9 @@ impl Clone for Cholesky {
             pattern: self.pattern.clone(),
             symbolic: Arc::clone(&self.symbolic),
             factor: self.factor.clone(),
+            blocks: self.blocks.clone(),
+            order: Arc::clone(&self.order),
+            ordered: self.ordered.clone(),
             scratch: MemBuffer::new(scratch_size(&self.symbolic)),
         }
     }
@@ -64,9 +75,15 @@ impl Cholesky {
         let symbolic =
             factorize_symbolic_cholesky(pattern.as_ref(), Side::Upper, SymmetricOrdering::Amd, params)
                 .map_err(|_| FactorError)?;
+        let SymbolicCholeskyRaw::Simplicial(columns) = symbolic.raw() else {
+            return Err(FactorError); // forced above
+        };
+        let blocks = Blocks::new(columns.col_ptr(), columns.row_idx());
+        let order = symbolic.perm().ok_or(FactorError)?.arrays().0.into();
         let factor = vec![0.0; symbolic.len_val()];
         let scratch = MemBuffer::new(scratch_size(&symbolic));
-        Ok(Self { pattern, symbolic: Arc::new(symbolic), factor, scratch })
+        let ordered = vec![0.0; size];
+        Ok(Self { pattern, symbolic: Arc::new(symbolic), factor, blocks, order, ordered, scratch })
     }
 
     /// Refreshes the numbers; `values` are parallel to the rows of the pattern.
@@ -82,30 +99,51 @@ impl Cholesky {
                 MemStack::new(&mut self.scratch),
                 faer::Spec::default(),
             )
-            .map(|_| ())
-            .map_err(|_| FactorError)
+            .map_err(|_| FactorError)?;
+        self.blocks.refresh(&self.factor);
+        Ok(())
     }
 
     /// Overwrites `x` with `A⁻¹ x`; several right-hand sides follow one another.
     pub(crate) fn solve(&mut self, x: &mut [f64]) {
-        let size = self.symbolic.nrows();
-        if size == 0 {
-            return;
+        for column in x.chunks_exact_mut(self.order.len().max(1)) {
+            self.take(column);
+            self.blocks.solve(&mut self.ordered);
+            self.give(column);
         }
-        let stack = MemStack::new(&mut self.scratch);
-        let solver = LltRef::new(&self.symbolic, &self.factor);
-        for column in x.chunks_exact_mut(size) {
-            let column = MatMut::from_column_major_slice_mut(column, size, 1);
-            solver.solve_in_place_with_conj(Conj::No, column, Par::Seq, stack);
+    }
+
+    /// `z = A⁻¹ M A⁻¹ r` with a diagonal `M`, given in the factor's order (see [`Self::ordered`]).
+    pub(crate) fn solve_around(&mut self, diagonal: &[f64], r: &[f64], z: &mut [f64]) {
+        self.take(r);
+        self.blocks.solve(&mut self.ordered);
+        for (value, factor) in self.ordered.iter_mut().zip(diagonal) {
+            *value *= factor;
+        }
+        self.blocks.solve(&mut self.ordered);
+        self.give(z);
+    }
+
+    /// One number per unknown, brought into the factor's order.
+    pub(crate) fn ordered(&self, x: &[f64]) -> Vec<f64> {
+        self.order.iter().map(|&unknown| x[unknown as usize]).collect()
+    }
+
+    fn take(&mut self, x: &[f64]) {
+        for (value, &unknown) in self.ordered.iter_mut().zip(&*self.order) {
+            *value = x[unknown as usize];
+        }
+    }
+
+    fn give(&self, x: &mut [f64]) {
+        for (&value, &unknown) in self.ordered.iter().zip(&*self.order) {
+            x[unknown as usize] = value;
         }
     }
 }
 
 fn scratch_size(symbolic: &SymbolicCholesky<u32>) -> StackReq {
-    StackReq::any_of(&[
-        symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, faer::Spec::default()),
-        symbolic.solve_in_place_scratch::<f64>(1, Par::Seq),
-    ])
+    symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, faer::Spec::default())
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use crate::dense::{self, Matrix5};
 use crate::energy::Adjoint;
 use crate::fit::{self, CarefulFit, Fit, Kind};
 use crate::lanes::{Real, Vector};
-use crate::neighbourhood::Ring;
+use crate::neighbourhood::{COLLINEAR, Ring};
 use crate::rings::MAX_RING;
 
 /// Where the way back begins and ends; kept and used again. Entries beyond the degree are left over.
@@ -21,12 +21,22 @@ pub(crate) struct Backward<T> {
     theta: [T; MAX_RING],
     /// With respect to the scaled angle between a chord and the next (the area sees it directly).
     gap: [T; MAX_RING],
+    /// One over a chord's length and its square; zero for a chord without length.
+    inverse: [T; MAX_RING],
+    inverse_square: [T; MAX_RING],
 }
 
 impl<T: Real> Default for Backward<T> {
     fn default() -> Self {
         let numbers = [T::default(); MAX_RING];
-        Self { chords: [Vector::zero(); MAX_RING], r: numbers, theta: numbers, gap: numbers }
+        Self {
+            chords: [Vector::zero(); MAX_RING],
+            r: numbers,
+            theta: numbers,
+            gap: numbers,
+            inverse: numbers,
+            inverse_square: numbers,
+        }
     }
 }
 
@@ -41,7 +51,7 @@ impl<T: Real> Backward<T> {
     /// The derivative with respect to every chord of ordinary fits.
     #[inline(always)]
     pub(crate) fn run<const N: usize>(&mut self, ring: &Ring<T>, fit: &Fit<T>, adjoint: &Adjoint<T>) {
-        self.clear(ring.degree);
+        self.begin(ring);
         self.through_fit::<N>(ring, fit, adjoint);
         self.through_area(ring, adjoint.area);
         self.through_angles(ring);
@@ -49,9 +59,13 @@ impl<T: Real> Backward<T> {
     }
 
     #[inline(always)]
-    fn clear(&mut self, degree: usize) {
-        for gap in &mut self.gap[..degree] {
-            *gap = T::splat(0.0);
+    fn begin(&mut self, ring: &Ring<T>) {
+        let degree = ring.degree;
+        self.gap[..degree].fill(T::splat(0.0));
+        let zero = T::splat(0.0);
+        for j in 0..degree {
+            let inverse = T::choose(zero.less(ring.r[j]), T::splat(1.0) / ring.r[j], zero);
+            (self.inverse[j], self.inverse_square[j]) = (inverse, inverse * inverse);
         }
     }
 
@@ -134,15 +148,12 @@ impl<T: Real> Backward<T> {
                 let angle_bar = ring.scale * (later + self.gap[j]) + total_bar;
                 let next = ring.next(j);
                 let (near, far) = (ring.chords[j], ring.chords[next]);
-                let (length, near_r, far_r) = (ring.cross_length[j], ring.r[j], ring.r[next]);
+                let length = ring.cross_length[j];
                 // Collinear chords have no plane to turn in.
-                let is_plane = (near_r * far_r * T::splat(1e-14)).less(length);
+                let is_plane = (ring.r[j] * ring.r[next] * T::splat(COLLINEAR)).less(length);
                 let factor = T::choose(is_plane, angle_bar / length, zero);
-                let nu = ring.cross[j] * factor;
-                let per_near = T::choose(is_plane, T::splat(1.0) / (near_r * near_r), zero);
-                let per_far = T::choose(is_plane, T::splat(1.0) / (far_r * far_r), zero);
-                self.chords[j] -= nu.cross(near) * per_near;
-                self.chords[next] += nu.cross(far) * per_far;
+                self.chords[j] -= ring.cross[j].cross(near) * (factor * self.inverse_square[j]);
+                self.chords[next] += ring.cross[j].cross(far) * (factor * self.inverse_square[next]);
             }
             later += self.theta[j];
         }
@@ -151,10 +162,8 @@ impl<T: Real> Backward<T> {
     /// Step 6: the chord's own length.
     #[inline(always)]
     fn through_lengths(&mut self, ring: &Ring<T>) {
-        let zero = T::splat(0.0);
         for j in 0..ring.degree {
-            let factor = T::choose(zero.less(ring.r[j]), self.r[j] / ring.r[j], zero);
-            self.chords[j] += ring.chords[j] * factor;
+            self.chords[j] += ring.chords[j] * (self.r[j] * self.inverse[j]);
         }
     }
 }
@@ -167,7 +176,7 @@ impl Backward<f64> {
             is_area_clamped: careful.is_area_clamped,
             filter: is_filtered.then(|| filter_bar(ring, &adjoint.d)),
         };
-        self.clear(ring.degree);
+        self.begin(ring);
         match &exceptions.filter {
             Some(filter) => self.through_filter(ring, &careful.fit, adjoint, filter),
             None => self.through_fit::<5>(ring, &careful.fit, adjoint),

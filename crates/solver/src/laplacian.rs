@@ -164,6 +164,16 @@ impl Laplacian {
         }
     }
 
+    /// `z = L⁻¹ M L⁻¹ r` with a diagonal `M` in the factor's order.
+    pub(crate) fn solve_around(&mut self, diagonal: &[f64], r: &[f64], z: &mut [f64]) {
+        self.factor.solve_around(diagonal, r, z);
+    }
+
+    /// One number per unknown, brought into the factor's order.
+    pub(crate) fn ordered(&self, x: &[f64]) -> Vec<f64> {
+        self.factor.ordered(x)
+    }
+
     /// Overwrites `x` with `L⁻¹ x`.
     pub(crate) fn solve(&mut self, x: &mut [f64]) {
         self.factor.solve(x);

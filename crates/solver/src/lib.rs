@@ -20,6 +20,7 @@ mod angle;
 mod assembly;
 mod barrier;
 mod batch;
+mod blocks;
 mod cg;
 mod component;
 mod curve;

@@ -16,7 +16,7 @@ use crate::rings::{MAX_RING, Rings};
 /// Sum of angles below which a ring is a needle without a parameterisation.
 const MIN_TOTAL: f64 = 1e-9;
 /// Sine of the angle between two chords below which they span no plane.
-const COLLINEAR: f64 = 1e-14;
+pub(crate) const COLLINEAR: f64 = 1e-14;
 
 /// A node's neighbours in polar coordinates (of two nodes at once where `T` has two lanes); kept and used again.
 ///
@@ -119,7 +119,8 @@ impl<T: Real> Ring<T> {
             let next = self.next(j);
             let cross = self.chords[j].cross(self.chords[next]);
             let length = cross.length();
-            let found = angle::angle(length, self.chords[j].dot(self.chords[next]));
+            let dot = self.chords[j].dot(self.chords[next]);
+            let found = angle::angle(length, dot);
             // Two chords without length have no angle: the quotient is NaN there.
             let found = T::choose(found.less(T::splat(4.0)), found, zero);
             is_ordinary &= T::all((self.r[j] * self.r[next] * T::splat(COLLINEAR)).less(length));

@@ -21,6 +21,7 @@ const SUSPECT_ITERATIONS: u32 = 10;
 #[derive(Clone, Debug)]
 pub(crate) struct Preconditioner {
     laplacian: Laplacian,
+    /// Lumped areas, in the order of the Laplacian's factor.
     mass: Vec<f64>,
     /// Chord lengths at the last refresh; empty before the first.
     lengths: Vec<f64>,
@@ -50,14 +51,13 @@ impl Preconditioner {
         self.laplacian.refresh(&fits.positions, Weights::Cotangent, shift)?;
         self.lengths.clear();
         self.lengths.extend_from_slice(&fits.lengths);
-        self.mass.clear();
-        let areas = unknowns.nodes.iter().map(|&node| fits.nodes[node as usize].area);
-        self.mass.extend(areas);
-        let mean = self.mass.iter().sum::<f64>() / self.mass.len().max(1) as f64;
+        let mut mass: Vec<f64> = unknowns.nodes.iter().map(|&node| fits.nodes[node as usize].area).collect();
+        let mean = mass.iter().sum::<f64>() / mass.len().max(1) as f64;
         // A node whose fan has no area still needs a place in the preconditioner.
-        for mass in &mut self.mass {
+        for mass in &mut mass {
             *mass = mass.max(1e-3 * mean);
         }
+        self.mass = self.laplacian.ordered(&mass);
         self.served_badly = false;
         Ok(())
     }
@@ -69,11 +69,6 @@ impl Preconditioner {
 
     /// `z = P⁻¹ r`
     pub(crate) fn apply(&mut self, r: &[f64], z: &mut [f64]) {
-        z.copy_from_slice(r);
-        self.laplacian.solve(z);
-        for (z, &mass) in z.iter_mut().zip(&self.mass) {
-            *z *= mass;
-        }
-        self.laplacian.solve(z);
+        self.laplacian.solve_around(&self.mass, r, z);
     }
 }

@@ -338,7 +338,10 @@ impl SurfaceSolver {
         // Nothing left to gain, or nothing to go by.
         if !(slope < -NOISE * energy) || !slope.is_finite() || !energy.is_finite() {
             report.damped = !(slope.is_finite() && energy.is_finite());
-            report.at_rest = !report.damped && is_converged;
+            // A gradient of rounding errors need not let the conjugate gradients converge: then it must show three times.
+            self.quiet_steps = if report.damped { 0 } else { self.quiet_steps + 1 };
+            let is_sure = is_converged || (report.cg_iterations > 0 && self.quiet_steps >= REST_STEPS);
+            report.at_rest = !report.damped && is_sure;
             return;
         }
         let found = line_search::search(
