@@ -173,7 +173,8 @@ fn surfaces_with_one_side_are_welcome() {
     let reply = bench.accept(Request::OpenText { text });
     let summary = reply.structure.unwrap().surfaces[0].summary;
     assert_eq!((summary.euler, summary.boundaries, summary.orientable), (0, 1, false));
-    bench.rest(400);
+    // Five corners hold a strip so loosely that it may creep: the modeler calls it settled after 600 steps at most.
+    bench.rest(600);
     let shape = &bench.modeler.model().surfaces[&SurfaceId(1)];
     let summary = ductile_mesh::summary(&shape.mesh);
     assert!(!summary.is_orientable && summary.euler == 0, "{summary:?}");

@@ -92,8 +92,9 @@ impl Fit<f64> {
 
     /// The derivatives of the fitted quadratic by `u` and `v`.
     pub(crate) fn tangents(&self, u: f64, v: f64) -> [DVec3; 2] {
-        let mixed = self.d[3] * FRAC_1_SQRT_2;
-        [self.d[0] + self.d[2] * u + mixed * v, self.d[1] + mixed * u + self.d[4] * v]
+        let d = self.d.map(|d| d.lane(0));
+        let mixed = d[3] * FRAC_1_SQRT_2;
+        [d[0] + d[2] * u + mixed * v, d[1] + mixed * u + d[4] * v]
     }
 }
 

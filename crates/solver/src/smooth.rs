@@ -117,17 +117,13 @@ pub(crate) fn place_on_edge(rings: &Rings, positions: &[DVec3], a: u32, b: u32) 
 /// The place of a node's fitted quadratic nearest to a given one: slid along the surface and lifted onto it.
 ///
 /// None on the boundary, whose fit knows nothing across it, and where there is no fit or the place is out of its reach.
-pub(crate) fn place_near(
-    rings: &Rings,
-    fits: &Fits,
-    positions: &[DVec3],
-    node: u32,
-    at: DVec3,
-) -> Option<DVec3> {
-    let (centre, fit) = (positions[node as usize], &fits.nodes[node as usize]);
-    if rings.is_boundary(node as usize) || !fit.is_fitted() {
+pub(crate) fn place_near(rings: &Rings, positions: &[DVec3], node: u32, at: DVec3) -> Option<DVec3> {
+    let centre = positions[node as usize];
+    let careful = fit_at(rings, positions, node, &mut Ring::default());
+    if rings.is_boundary(node as usize) || !careful.is_fitted() {
         return None;
     }
+    let fit = &careful.fit;
     let (mut u, mut v) = (0.0, 0.0);
     for _ in 0..FOOT_STEPS {
         let [along_u, along_v] = fit.tangents(u, v);

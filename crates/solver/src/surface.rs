@@ -284,7 +284,7 @@ impl SurfaceSolver {
     /// Uses the newest fit; the error is of third order in the distance from the node. `None` on the boundary, whose
     /// fit knows nothing across it, where there is no fit, and farther away than the quadratic reaches (1.25 mean edges).
     pub fn place_near(&self, positions: &[DVec3], node: u32, at: DVec3) -> Option<DVec3> {
-        smooth::place_near(&self.rings, &self.fits, positions, node, at)
+        smooth::place_near(&self.rings, positions, node, at)
     }
 
     /// Fits at these positions, and the normals that go with them.

@@ -41,6 +41,9 @@ pub(crate) fn pin(
     shape.revision = revision;
     let place = shape.positions[vertex.index()];
     let place = kept_position(model, place)?;
+    // A vertex that went only a part of the way is not yet where the document can say it is.
+    let shape = edit(model.surfaces.get_mut(&surface).ok_or(ModelError::NoSurface(surface))?);
+    shape.positions[vertex.index()] = place;
     model.document_mut().points.insert(id, place);
     refresh_skeleton(model, surface);
     model.document.validate()?;
