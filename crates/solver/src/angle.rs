@@ -103,6 +103,8 @@ mod tests {
     use super::*;
     use crate::lanes::Pair;
     use crate::workload::Stream;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
 
     #[test]
     fn angles_are_those_of_the_library() {

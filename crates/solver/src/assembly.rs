@@ -236,6 +236,8 @@ mod tests {
     use crate::fits::Wanted;
     use crate::lanes::Real;
     use crate::workload;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
 
     /// The matrix as the sum of dense outer products.
     fn dense(rings: &Rings, fits: &Fits, unknowns: &Unknowns, kind: Rows) -> Vec<Vec<f64>> {

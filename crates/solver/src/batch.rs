@@ -78,6 +78,8 @@ pub(crate) fn pair(nodes: impl Iterator<Item = (usize, bool)>) -> Vec<Batch> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
 
     #[test]
     fn neighbours_of_a_kind_are_paired_and_nobody_is_lost() {

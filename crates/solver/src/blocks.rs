@@ -226,6 +226,8 @@ fn widths(size: usize, column: impl Fn(usize) -> (usize, Option<u32>)) -> Vec<us
 mod tests {
     use super::*;
     use crate::workload::Stream;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
 
     /// Pattern and numbers of a factor: fill of a random sparse matrix, so that the rule of nested columns holds.
     fn factor(size: usize, seed: u64) -> (Vec<u32>, Vec<u32>, Vec<f64>) {

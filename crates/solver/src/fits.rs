@@ -252,6 +252,8 @@ fn write_rows<T: Real, const N: usize>(ring: &Ring<T>, fit: &Fit<T>, mut write: 
 mod tests {
     use super::*;
     use crate::workload::{self, Stream};
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
 
     /// A shape with ordinary, filtered, folded and boundary nodes.
     fn rough() -> (Rings, Vec<DVec3>) {
