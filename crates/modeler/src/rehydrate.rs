@@ -15,6 +15,9 @@ use std::sync::Arc;
 
 /// Steps that a new curve may take to come to rest.
 const CURVE_STEPS: usize = 80;
+/// Cosine of the angle between the normals of neighbours from which on they are a fold (about 170°): a skeleton's own
+/// creases are blunter, and where they are not, nothing is lost.
+const FOLDED: f64 = -0.985;
 /// Below this part of the largest coordinate a shape has no extent.
 const LEAST_EXTENT: f64 = 1e-9;
 
@@ -134,9 +137,13 @@ pub(crate) fn build_surface(
     }
     // A regular mesh has 2 / sqrt(3) nodes for each square of its edge length.
     check_budget(spacing, 1.155 * area / (spacing * spacing), NODE_BUDGET)?;
-    let mut shape =
-        SurfaceShape { mesh, positions, embeddings: Vec::new(), pins: Vec::new(), spacing, revision };
-    embed_curves(&mut shape, skeleton, curves)?;
+    let bare = SurfaceShape { mesh, positions, embeddings: Vec::new(), pins: Vec::new(), spacing, revision };
+    let mut shape = bare.clone();
+    embed_curves(&mut shape, skeleton, curves, Laying::OnCurves)?;
+    if is_folded(&shape) {
+        shape = bare;
+        embed_curves(&mut shape, skeleton, curves, Laying::OnEdges)?;
+    }
     for (index, vertex) in skeleton.vertices.iter().enumerate() {
         let vertex_id = VertexId::from_index(index);
         if let SkeletonVertex::Control(point) = vertex
@@ -161,6 +168,27 @@ fn check_budget(spacing: f64, nodes: f64, limit: usize) -> Result<(), ModelError
     Err(ModelError::TooFine { spacing, nodes: nodes as usize, limit })
 }
 
+/// Where the samples of curves are put while a skeleton is cut along them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Laying {
+    /// Where they belong: the skin is at once right at its curves.
+    OnCurves,
+    /// On the skeleton's edges, from where the relaxer carries them to their curves with all that is around. A
+    /// curve that bulges into its surface, like the inner rim of a ring, would else overtake the vertices before it.
+    OnEdges,
+}
+
+/// Whether two triangles lie on each other, as no skin over a skeleton should.
+fn is_folded(shape: &SurfaceShape) -> bool {
+    let normal = |f| measure::face_normal(&shape.mesh, &shape.positions, f);
+    shape.mesh.edges().any(|e| {
+        let (f, Some(g)) = shape.mesh.edge_faces(e) else { return false };
+        let (one, other) = (normal(f), normal(g));
+        let alike = if shape.mesh.is_wound_alike(e) { one.dot(other) } else { -one.dot(other) };
+        alike < FOLDED * one.length() * other.length()
+    })
+}
+
 /// A control curve on its way into a mesh: the samples that have a vertex already, in order.
 struct Path {
     curve: CurveId,
@@ -173,18 +201,19 @@ fn embed_curves(
     shape: &mut SurfaceShape,
     skeleton: &Skeleton,
     curves: &BTreeMap<CurveId, Arc<CurveShape>>,
+    laying: Laying,
 ) -> Result<(), ModelError> {
     let mut paths = Vec::with_capacity(skeleton.curves.len());
     for embedding in &skeleton.curves {
         let curve = curves.get(&embedding.curve).ok_or(ModelError::NoCurve(embedding.curve))?;
-        paths.push(lay_path(shape, skeleton, curve, embedding));
+        paths.push(lay_path(shape, skeleton, curve, embedding, laying));
     }
     let longest = |path: &Path| path.placed.windows(2).map(|w| w[1].0 - w[0].0).max().unwrap_or(1);
     let mut stride = paths.iter().map(longest).max().unwrap_or(1).next_power_of_two();
     while stride >= 1 {
         for path in &mut paths {
             if let Some(curve) = curves.get(&path.curve) {
-                cut_path(shape, curve, path, stride);
+                cut_path(shape, curve, path, stride, laying);
             }
         }
         maintain::refine(shape, stride);
@@ -207,6 +236,7 @@ fn lay_path(
     skeleton: &Skeleton,
     curve: &CurveShape,
     embedding: &Embedding,
+    laying: Laying,
 ) -> Path {
     let mut placed = Vec::new();
     let mut end = None;
@@ -218,7 +248,9 @@ fn lay_path(
             }
             // Path vertex j of the chain takes the sample at its share of the stretch.
             let sample = first + j * count / (chain.len() - 1);
-            shape.positions[vertex(j).index()] = curve.nodes[sample % curve.nodes.len()];
+            if laying == Laying::OnCurves {
+                shape.positions[vertex(j).index()] = curve.nodes[sample % curve.nodes.len()];
+            }
             placed.push((sample, vertex(j)));
         }
         end = Some((first + count, vertex(chain.len() - 1)));
@@ -228,7 +260,7 @@ fn lay_path(
 }
 
 /// Halves every gap of a path that spans more than `stride` samples.
-fn cut_path(shape: &mut SurfaceShape, curve: &CurveShape, path: &mut Path, stride: usize) {
+fn cut_path(shape: &mut SurfaceShape, curve: &CurveShape, path: &mut Path, stride: usize, laying: Laying) {
     let mut k = 0;
     while k + 1 < path.placed.len() {
         let ((low, from), (high, to)) = (path.placed[k], path.placed[k + 1]);
@@ -240,7 +272,13 @@ fn cut_path(shape: &mut SurfaceShape, curve: &CurveShape, path: &mut Path, strid
         let sample = low.midpoint(high);
         let vertex = shape.mesh.split_edge(edge);
         shape.positions.resize(shape.mesh.vertex_slots(), DVec3::ZERO);
-        shape.positions[vertex.index()] = curve.nodes[sample % curve.nodes.len()];
+        shape.positions[vertex.index()] = match laying {
+            Laying::OnCurves => curve.nodes[sample % curve.nodes.len()],
+            Laying::OnEdges => {
+                let part = (sample - low) as f64 / (high - low) as f64;
+                shape.positions[from.index()].lerp(shape.positions[to.index()], part)
+            }
+        };
         path.placed.insert(k + 1, (sample, vertex));
     }
 }
