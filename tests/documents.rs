@@ -3,7 +3,7 @@
 
 use acceptance::Bench;
 use core::f64::consts::PI;
-use ductile_spec::{CurveId, Edit, Example, PointId, Request, SurfaceId, to_fragment};
+use ductile_spec::{CurveId, Edit, Example, PointId, Request, SurfaceId, Through, to_fragment};
 use glam::{DVec3, dvec3};
 
 #[test]
@@ -76,7 +76,7 @@ fn a_shape_does_not_depend_on_its_spacing() {
 fn a_document_built_by_acts_is_undone_to_nothing_and_redone_to_itself() {
     let mut bench = Bench::new();
     let square = [dvec3(1., 0., 0.), dvec3(0., 1., 0.), dvec3(-1., 0., 0.), dvec3(0., -1., 0.)];
-    bench.edit(Edit::Draw { at: square.to_vec(), closed: true });
+    bench.edit(Edit::Curve { through: square.map(Through::Place).to_vec(), closed: true });
     bench.edit(Edit::Sheet { boundary: CurveId(1) });
     bench.rest(300);
     bench.edit(Edit::Pin { surface: SurfaceId(1), at: dvec3(0.1, 0.2, 0.0) });
@@ -85,7 +85,8 @@ fn a_document_built_by_acts_is_undone_to_nothing_and_redone_to_itself() {
     bench.edit(Edit::Insert { curve: CurveId(1), at: dvec3(0.7, 0.7, 0.0) });
     bench.edit(Edit::Move { point: PointId(6), to: dvec3(0.9, 0.9, 0.3) });
     bench.rest(300);
-    bench.edit(Edit::Draw { at: square.map(|p| p * 0.6 + DVec3::Z * 1.5).to_vec(), closed: true });
+    let above = square.map(|p| Through::Place(p * 0.6 + DVec3::Z * 1.5));
+    bench.edit(Edit::Curve { through: above.to_vec(), closed: true });
     bench.edit(Edit::Sweep { from: CurveId(1), to: CurveId(2) });
     bench.rest(300);
     bench.edit(Edit::Release { point: PointId(5) });
@@ -109,6 +110,46 @@ fn a_document_built_by_acts_is_undone_to_nothing_and_redone_to_itself() {
     }
     assert!(bench.send(Request::Redo).refused.is_some());
     bench.rest(300);
+}
+
+#[test]
+fn a_curve_through_old_points_and_new_places_is_one_act() {
+    let mut bench = Bench::with(Example::Disc);
+    let before = bench.document.clone();
+    let place = |x, y, z| Through::Place(dvec3(x, y, z));
+    let through =
+        vec![Through::Point(PointId(1)), place(0., 0., 1.), Through::Point(PointId(3)), place(0., 0., -1.)];
+    let reply = bench.edit(Edit::Curve { through, closed: true });
+    assert_eq!(reply.committed.map(|c| c.act), Some("Curve".to_owned()));
+    let through: Vec<u32> = bench.document().curves[&CurveId(2)].through.iter().map(|id| id.0).collect();
+    assert_eq!(through, [1, 5, 3, 6]);
+    bench.accept(Request::Undo);
+    assert_eq!(bench.document, before, "curve and points go together");
+}
+
+#[test]
+fn a_sweep_between_curves_in_one_plane_is_a_flat_ring() {
+    // As four clicks on the ground make them, seen at a slant: no two sides alike.
+    let outer = [dvec3(-1.4, 1.2, 0.), dvec3(1.5, 1.4, 0.), dvec3(1.2, -1.1, 0.), dvec3(-1.2, -0.9, 0.)];
+    let flat = |[x, y]: [f64; 2]| dvec3(x, y, 0.0);
+    let pairs = [
+        (outer, outer.map(|p| 0.4 * p + dvec3(0.05, 0.02, 0.0))),
+        (outer, outer.map(|p| dvec3(p.y, p.x, 0.0) * 0.4)),
+        // The inner curve bulges far into the ring.
+        (
+            [[-1.58, 0.86], [-0.45, -0.71], [0.79, -0.18], [-0.31, 2.01]].map(flat),
+            [[-0.745, 0.494], [-0.361, -0.147], [0.195, 0.079], [-0.294, 0.879]].map(flat),
+        ),
+    ];
+    for (outer, inner) in pairs {
+        let mut bench = Bench::new();
+        for corners in [outer, inner] {
+            bench.edit(Edit::Curve { through: corners.map(Through::Place).to_vec(), closed: true });
+        }
+        bench.edit(Edit::Sweep { from: CurveId(1), to: CurveId(2) });
+        let energy = bench.rest(300);
+        assert!(energy.abs() < 1e-6, "energy {energy}");
+    }
 }
 
 #[test]

@@ -105,7 +105,7 @@ fn a_wild_drag_returns_to_the_undisturbed_shape() {
 fn requests_that_make_no_sense_are_refused_with_a_reason() {
     let mut bench = Bench::with(Example::Disc);
     let document = bench.document.clone();
-    use ductile_spec::Edit;
+    use ductile_spec::{Edit, Through};
     let refused = [
         Request::Drop,
         Request::Cancel,
@@ -115,8 +115,14 @@ fn requests_that_make_no_sense_are_refused_with_a_reason() {
         Request::Grab(GrabTarget::Curve { curve: CurveId(1), at: DVec3::NAN }),
         Request::Edit(Edit::Point { at: DVec3::INFINITY }),
         Request::Edit(Edit::Move { point: PointId(1), to: DVec3::splat(1e7) }),
-        Request::Edit(Edit::Curve { through: vec![PointId(1)], closed: false }),
-        Request::Edit(Edit::Curve { through: vec![PointId(1), PointId(1)], closed: false }),
+        Request::Edit(Edit::Curve { through: vec![Through::Point(PointId(1))], closed: false }),
+        Request::Edit(Edit::Curve { through: vec![Through::Point(PointId(1)); 2], closed: false }),
+        // A place that is none, after one that is: the first must not stay.
+        Request::Edit(Edit::Curve {
+            through: [DVec3::ZERO, DVec3::NAN].map(Through::Place).to_vec(),
+            closed: false,
+        }),
+        Request::Edit(Edit::Curve { through: vec![Through::Place(DVec3::ZERO); 2], closed: false }),
         Request::Edit(Edit::Sheet { boundary: CurveId(1) }),
         Request::Edit(Edit::Sweep { from: CurveId(1), to: CurveId(1) }),
         Request::Edit(Edit::DeleteCurve { curve: CurveId(1) }),

@@ -20,18 +20,11 @@ pub enum Edit {
         /// Where to.
         to: DVec3,
     },
-    /// Makes a fair curve through points, in order.
+    /// Makes a fair curve through points, in order. Points that it wants in new places are made with it.
     Curve {
-        /// The points: at least 2, or 3 for a closed curve.
-        through: Vec<PointId>,
+        /// The points, old and new: at least 2, or 3 for a closed curve.
+        through: Vec<Through>,
         /// Whether it closes.
-        closed: bool,
-    },
-    /// Places points and makes the curve through them, as one act.
-    Draw {
-        /// Where the points are.
-        at: Vec<DVec3>,
-        /// Whether the curve closes.
         closed: bool,
     },
     /// Skins a closed curve (thesis section 7.3.2, `sheet`).
@@ -99,7 +92,7 @@ impl Edit {
         match self {
             Self::Point { .. } => "Point",
             Self::Move { .. } => "Move",
-            Self::Curve { .. } | Self::Draw { .. } => "Curve",
+            Self::Curve { .. } => "Curve",
             Self::Sheet { .. } => "Sheet",
             Self::Sweep { .. } => "Sweep",
             Self::Pin { .. } | Self::Insert { .. } => "Control point",
@@ -109,6 +102,15 @@ impl Edit {
             Self::Rename { .. } => "Rename",
         }
     }
+}
+
+/// What a new curve passes through.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Through {
+    /// A control point that is there.
+    Point(PointId),
+    /// A place, which becomes a control point.
+    Place(DVec3),
 }
 
 /// What a drag takes hold of.

@@ -18,14 +18,14 @@ mod validate;
 pub use document::{
     Curve, Document, Embedding, MAX_COORDINATE, Objective, Skeleton, SkeletonVertex, Surface,
 };
-pub use edit::{Edit, GrabTarget};
+pub use edit::{Edit, GrabTarget, Through};
 pub use example::Example;
 pub use frame::{
     CurveRole, CurveSpan, Figures, FrameHeader, PointEntry, PointRole, Structure, SurfaceSpan,
     SurfaceSummary, VERTEX_FLOATS, vertex_layout,
 };
 pub use id::{CurveId, PointId, SurfaceId};
-pub use protocol::{Committed, ExportFormat, Exported, Grabbed, Refusal, Reply, Request, Step};
+pub use protocol::{Committed, ExportFormat, Exported, Grabbed, Refusal, Reply, Request, Step, TRAP};
 pub use share::{FRAGMENT_KEY, LinkError, MAX_LINK_BYTES, from_fragment, to_fragment};
 pub use text::{FORMAT_VERSION, MAX_TEXT_BYTES, TextError, from_text, to_compact_text, to_text};
 pub use validate::Defect;

@@ -11,6 +11,10 @@ use crate::id::PointId;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
+/// What a page sends in place of a [`Request`] to see its worker die of a panic. No request and no document can
+/// say this: only the page's own inspection does.
+pub const TRAP: &str = "trap";
+
 /// What the page asks of the worker.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Request {

@@ -4,7 +4,7 @@
 //! the designer leaves it. Nothing here talks to the worker or to the document object model.
 
 use crate::{Hit, Scene};
-use ductile_spec::{CurveId, CurveSpan, Edit, PointEntry, PointId, PointRole, Structure, SurfaceId};
+use ductile_spec::{CurveId, CurveSpan, Edit, PointEntry, PointId, PointRole, Structure, SurfaceId, Through};
 use glam::Vec3;
 
 mod drag;
@@ -163,8 +163,6 @@ pub struct Aim<'a> {
 pub struct Surroundings<'a> {
     /// The things of the model.
     pub structure: &'a Structure,
-    /// The identity that the next new point will have.
-    pub next_point: PointId,
     /// Where the eye looks.
     pub forward: Vec3,
 }
@@ -345,23 +343,8 @@ impl Toolbox {
             // A sheet over the curve then shows its outside to the designer.
             corners[1..].reverse();
         }
-        if corners.iter().all(|corner| corner.point.is_none()) {
-            let at = corners.iter().map(|corner| corner.at.as_dvec3()).collect();
-            return vec![Act::Edit(Edit::Draw { at, closed })];
-        }
-        // New points come first; the modeler numbers them upwards from the next free identity.
-        let mut acts = Vec::new();
-        let mut next = around.next_point.0;
-        let mut through = Vec::with_capacity(corners.len());
-        for corner in corners {
-            through.push(corner.point.unwrap_or_else(|| {
-                acts.push(Act::Edit(Edit::Point { at: corner.at.as_dvec3() }));
-                next = next.saturating_add(1);
-                PointId(next - 1)
-            }));
-        }
-        acts.push(Act::Edit(Edit::Curve { through, closed }));
-        acts
+        let through = corners.iter().map(|c| c.point.map_or(Through::Place(c.at.as_dvec3()), Through::Point));
+        vec![Act::Edit(Edit::Curve { through: through.collect(), closed })]
     }
 
     fn pick_end(&mut self, hit: Option<&Hit>, structure: &Structure) -> Vec<Act> {

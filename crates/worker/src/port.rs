@@ -5,7 +5,7 @@
 //! whose buffers are transferred, not copied. Two frame buffers circulate, so a step allocates nothing.
 
 use ductile_modeler::Modeler;
-use ductile_spec::{Refusal, Reply, Request};
+use ductile_spec::{Refusal, Reply, Request, TRAP};
 use js_sys::{Array, Float32Array, Object, Reflect, Uint32Array};
 use wasm_bindgen::closure::Closure;
 use wasm_bindgen::{JsCast, JsValue};
@@ -27,8 +27,10 @@ pub(crate) fn open() {
 
 fn answer(scope: &DedicatedWorkerGlobalScope, modeler: &mut Modeler, message: &JsValue) {
     let spare: Option<Float32Array> = field(message, "b").dyn_into().ok();
+    let control = field(message, "c");
+    assert!(control.as_string().as_deref() != Some(TRAP), "a trap was asked for");
     let begin = now(scope);
-    let mut reply = match serde_wasm_bindgen::from_value::<Request>(field(message, "c")) {
+    let mut reply = match serde_wasm_bindgen::from_value::<Request>(control) {
         Ok(request) => modeler.handle(request),
         Err(error) => unreadable(modeler, &error.to_string()),
     };

@@ -5,7 +5,7 @@
 #![allow(clippy::unwrap_used, reason = "a failing test should stop where it fails")]
 
 use acceptance::{Bench, bits_after};
-use ductile_spec::{CurveId, Edit, Example, GrabTarget, PointId, Request};
+use ductile_spec::{CurveId, Edit, Example, GrabTarget, PointId, Request, Through};
 use glam::{DVec3, dvec3};
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
@@ -25,7 +25,7 @@ fn examples_give_the_bits_of_the_native_program_after_200_steps() {
 fn a_sheet_is_drawn_skinned_dragged_and_undone() {
     let mut bench = Bench::new();
     let at = [dvec3(1., 0., 0.), dvec3(0., 1., 0.), dvec3(-1., 0., 0.), dvec3(0., -1., 0.)];
-    bench.edit(Edit::Draw { at: at.to_vec(), closed: true });
+    bench.edit(Edit::Curve { through: at.map(Through::Place).to_vec(), closed: true });
     bench.edit(Edit::Sheet { boundary: CurveId(1) });
     bench.rest(300);
     let before = bench.document.clone();

@@ -34,7 +34,6 @@ pub(crate) fn apply(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result
         Edit::Point { at } => point::place(model, *at).map(drop),
         Edit::Move { point, to } => point::shift(model, *point, *to),
         Edit::Curve { through, closed } => curve::curve(model, through, *closed),
-        Edit::Draw { at, closed } => curve::draw(model, at, *closed),
         Edit::Sheet { boundary } => sheet::sheet(model, *boundary),
         Edit::Sweep { from, to } => sweep::sweep(model, *from, *to),
         Edit::Pin { surface, at } => pin(model, relaxer, *surface, *at).map(drop),

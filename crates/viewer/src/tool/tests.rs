@@ -1,5 +1,5 @@
 use super::*;
-use ductile_spec::CurveRole;
+use ductile_spec::{CurveRole, Through};
 use glam::DVec3;
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -23,7 +23,7 @@ fn key(tools: &mut Toolbox, key: ToolKey) -> Vec<Act> {
 }
 
 fn around(structure: &Structure) -> Surroundings<'_> {
-    Surroundings { structure, next_point: PointId(4), forward: Vec3::NEG_Z }
+    Surroundings { structure, forward: Vec3::NEG_Z }
 }
 
 fn on_plane(x: f32) -> Aim<'static> {
@@ -49,8 +49,8 @@ fn new_corners_become_one_act() {
     let mut tools = with(ToolKind::Curve);
     assert!(click(&mut tools, on_plane(0.0)).is_empty());
     assert!(click(&mut tools, on_plane(1.0)).is_empty());
-    let at = vec![DVec3::ZERO, DVec3::X];
-    assert_eq!(key(&mut tools, ToolKey::Done), [Act::Edit(Edit::Draw { at, closed: false })]);
+    let through = vec![Through::Place(DVec3::ZERO), Through::Place(DVec3::X)];
+    assert_eq!(key(&mut tools, ToolKey::Done), [Act::Edit(Edit::Curve { through, closed: false })]);
     assert_eq!(tools.kind(), ToolKind::Curve, "the tool stays");
     assert!(tools.corners().is_empty());
 }
@@ -64,7 +64,7 @@ fn the_first_corner_closes_a_curve_of_three() {
     let first = Aim { corner: Some(0), ..on_plane(0.0) };
     assert!(matches!(click(&mut tools, first)[..], [Act::Say(_)]));
     click(&mut tools, on_plane(2.0));
-    assert!(matches!(click(&mut tools, first)[..], [Act::Edit(Edit::Draw { closed: true, .. })]));
+    assert!(matches!(click(&mut tools, first)[..], [Act::Edit(Edit::Curve { closed: true, .. })]));
 }
 
 #[test]
@@ -74,20 +74,20 @@ fn points_that_exist_are_taken_over() {
         click(&mut tools, Aim { hit: Some(&point_hit(id)), ..Aim::default() });
     }
     let closing = click(&mut tools, Aim { hit: Some(&point_hit(1)), ..Aim::default() });
-    let through = vec![PointId(1), PointId(2), PointId(3)];
+    let through = [1, 2, 3].map(|id| Through::Point(PointId(id))).to_vec();
     assert_eq!(closing, [Act::Edit(Edit::Curve { through, closed: true })]);
 }
 
 #[test]
-fn new_points_among_old_ones_are_placed_first_and_numbered_upwards() {
+fn new_corners_among_points_that_exist_become_one_act() {
     let mut tools = with(ToolKind::Curve);
     click(&mut tools, on_plane(5.0));
     click(&mut tools, Aim { hit: Some(&point_hit(2)), ..Aim::default() });
     click(&mut tools, on_plane(6.0));
     let acts = key(&mut tools, ToolKey::Done);
-    let through = vec![PointId(4), PointId(2), PointId(5)];
-    assert_eq!(acts.len(), 3);
-    assert_eq!(acts[2], Act::Edit(Edit::Curve { through, closed: false }));
+    let place = |x| Through::Place(DVec3::X * x);
+    let through = vec![place(5.0), Through::Point(PointId(2)), place(6.0)];
+    assert_eq!(acts, [Act::Edit(Edit::Curve { through, closed: false })]);
 }
 
 #[test]
@@ -112,7 +112,7 @@ fn a_corner_twice_in_the_middle_is_refused_and_the_last_one_again_ends_the_curve
     }
     assert!(matches!(click(&mut tools, Aim { corner: Some(1), ..Aim::default() })[..], [Act::Say(_)]));
     let last = Aim { corner: Some(2), ..Aim::default() };
-    assert!(matches!(click(&mut tools, last)[..], [Act::Edit(Edit::Draw { closed: false, .. })]));
+    assert!(matches!(click(&mut tools, last)[..], [Act::Edit(Edit::Curve { closed: false, .. })]));
 }
 
 #[test]
@@ -207,7 +207,7 @@ fn a_closed_curve_runs_counterclockwise_for_the_eye() {
             click(&mut tools, Aim { place: Some(at), ..Aim::default() });
         }
         let acts = click(&mut tools, Aim { corner: Some(0), ..Aim::default() });
-        let at = square.map(|at| at.as_dvec3()).to_vec();
-        assert_eq!(acts, [Act::Edit(Edit::Draw { at, closed: true })]);
+        let through = square.map(|at| Through::Place(at.as_dvec3())).to_vec();
+        assert_eq!(acts, [Act::Edit(Edit::Curve { through, closed: true })]);
     }
 }

@@ -184,11 +184,7 @@ impl Page {
         let hit = self.thing_at(at);
         let aim =
             Aim { hit: hit.as_ref(), place: self.place_on_plane(at, modifiers), corner: self.corner_at(at) };
-        let around = Surroundings {
-            structure: &self.scene.structure,
-            next_point: self.document.next_point(),
-            forward: self.camera.forward(),
-        };
+        let around = Surroundings { structure: &self.scene.structure, forward: self.camera.forward() };
         let acts = self.tools.click(aim, around);
         self.perform(acts);
     }
@@ -280,11 +276,7 @@ impl Page {
         let place = self.place_on_plane(middle, Modifiers::default());
         let hit = hit.filter(|_| self.tools.kind() != ToolKind::Point);
         let aim = Aim { hit: hit.as_ref(), place, corner: None };
-        let around = Surroundings {
-            structure: &self.scene.structure,
-            next_point: self.document.next_point(),
-            forward: self.camera.forward(),
-        };
+        let around = Surroundings { structure: &self.scene.structure, forward: self.camera.forward() };
         let acts = self.tools.click(aim, around);
         self.perform(acts);
     }

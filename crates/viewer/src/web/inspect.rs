@@ -3,6 +3,7 @@
 use super::dom::{self, put};
 use super::page::{Page, act, look};
 use crate::tool::Selection;
+use ductile_spec::TRAP;
 use glam::Vec3;
 use js_sys::{Array, JSON, Object};
 use wasm_bindgen::closure::Closure;
@@ -17,7 +18,7 @@ pub fn inspect() -> String {
     state.and_then(|text| text.as_string()).unwrap_or_default()
 }
 
-/// Brings trouble about: `lose-device`, `kill-worker`, `hang-worker`.
+/// Brings trouble about: `lose-device`, `kill-worker`, `hang-worker`, `trap-worker` (a panic inside of it).
 #[wasm_bindgen]
 pub fn provoke(what: &str) {
     let what = what.to_owned();
@@ -25,6 +26,7 @@ pub fn provoke(what: &str) {
         "lose-device" => page.stage.lose(),
         "kill-worker" => page.worker_died("it was killed"),
         "hang-worker" => page.port.silence(),
+        "trap-worker" => drop(page.port.send_raw(&JsValue::from_str(TRAP))),
         _ => page.notices.refusal(&format!("“{what}” cannot be provoked.")),
     });
 }

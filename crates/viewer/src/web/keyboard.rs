@@ -196,11 +196,7 @@ impl Page {
     }
 
     pub(crate) fn tool_key(&mut self, key: ToolKey) {
-        let around = Surroundings {
-            structure: &self.scene.structure,
-            next_point: self.document.next_point(),
-            forward: self.camera.forward(),
-        };
+        let around = Surroundings { structure: &self.scene.structure, forward: self.camera.forward() };
         let acts = self.tools.key(key, around);
         self.perform(acts);
     }
