@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { test } from "node:test";
-import { assertOnCanvas, atRest, choose, distance, newPoints, wide } from "./support/model.mjs";
+import { assertOnCanvas, atRest, choose, distance, newPoints, point, wide } from "./support/model.mjs";
 import { inspect, untilInspect, withPage } from "./support/page.mjs";
 import { drag } from "./support/pointer.mjs";
 
@@ -26,7 +26,7 @@ test("four clicks and one make a curve, another a surface; it can be pulled", as
     const [made, ...more] = newPoints(after, surface);
     assert.deepEqual(more, []);
     assert.equal(made.role, "Surface");
-    assert.ok(distance(made.screen, to) < 20, `it went along: ${made.screen}`);
+    assert.ok(distance(made.screen, to) < 2, `it went along: ${made.screen} at ${to}`);
     assert.ok(after.figures.energy > 0.5, `a bump costs energy: ${after.figures.energy}`);
     assert.equal(after.surfaces[0].summary.euler, 1);
 
@@ -37,6 +37,75 @@ test("four clicks and one make a curve, another a surface; it can be pulled", as
     }
     await page.keyboard.press("Control+z");
     await atRest(page, (state) => state.name === "Raised disc" && state.surfaces.length === 1);
+  });
+});
+
+test("a curve through old points and new ones is one step of undo", async () => {
+  await withPage({ viewport: wide }, async (page) => {
+    const before = await atRest(page);
+    const [first, second] = [1, 3].map((id) => point(before, id).screen);
+    await page.keyboard.press("c");
+    const clicks = [first, [120, 120], second, [560, 520]];
+    await assertOnCanvas(page, ...clicks);
+    for (const [index, place] of clicks.entries()) {
+      await page.mouse.click(...place);
+      await untilInspect(page, (state) => state.corners === index + 1);
+    }
+    await page.mouse.click(...first);
+    const drawn = await atRest(page, ({ curves }) => curves.length === 2);
+    assert.equal(drawn.points.length, before.points.length + 2);
+    const { through, closed } = JSON.parse(drawn.document).curves[2];
+    assert.ok(closed && through.length === 4 && [1, 3].every((id) => through.includes(id)), `through ${through}`);
+    assert.equal(drawn.undo, "Curve");
+
+    await page.keyboard.press("Control+z");
+    const back = await atRest(page, ({ curves }) => curves.length === 1);
+    assert.equal(back.document, before.document, "curve and new points are gone at once");
+    assert.equal(back.undo, before.undo);
+    await page.keyboard.press("Control+Shift+Z");
+    assert.equal((await atRest(page, ({ curves }) => curves.length === 2)).document, drawn.document);
+  });
+});
+
+test("two curves are swept by two clicks; the skin can be pulled", async () => {
+  await withPage({ viewport: wide }, async (page) => {
+    await atRest(page);
+    await choose(page, "file", "new");
+    await atRest(page, ({ points }) => points.length === 0);
+    const middle = [430, 290];
+    const inner = corners.map((corner) => [0, 1].map((axis) => middle[axis] + 0.4 * (corner[axis] - middle[axis])));
+    await closedCurve(page, corners, 1);
+    const drawn = await closedCurve(page, inner, 2);
+    assert.equal(drawn.points.length, 8);
+    const [outside, inside] = [corners, inner].map((ends, index) => onCurve(drawn.curves[index], ends));
+
+    await page.keyboard.press("w");
+    await page.mouse.click(...outside);
+    await untilInspect(page, ({ selection, toast }) => selection === null && toast === null);
+    await page.mouse.click(...outside);
+    const refused = await untilInspect(page, ({ toast }) => toast?.includes("two different curves"));
+    assert.equal(refused.document, drawn.document, "a curve is not swept to itself");
+    await page.mouse.click(...inside);
+    const swept = await atRest(page, ({ surfaces }) => surfaces.length === 1);
+    const { summary } = swept.surfaces[0];
+    assert.deepEqual(summary, { euler: 0, boundaries: 2, components: 1, orientable: true, genus: 0 });
+    assert.ok(Math.abs(swept.figures.energy) < 0.01, `a flat ring costs nothing, not ${swept.figures.energy}`);
+    assert.equal(swept.undo, "Sweep");
+
+    // Up with the inner curve: a crater's wall.
+    await page.keyboard.press("v");
+    const from = swept.points.find(({ screen }) => distance(screen, inner[0]) < 2).screen;
+    const to = [from[0] - 5, from[1] - 60];
+    await assertOnCanvas(page, from, to);
+    await drag(page, from, to);
+    const pulled = await atRest(page, (state) => state.document !== swept.document);
+    assert.ok(pulled.points.some(({ screen }) => distance(screen, to) < 2));
+    assert.ok(pulled.figures.energy > 0.5);
+    for (const surfaces of [1, 0]) {
+      await page.keyboard.press("Control+z");
+      await atRest(page, (state) => state.surfaces.length === surfaces && state.undo !== pulled.undo);
+    }
+    assert.equal((await inspect(page)).document, drawn.document);
   });
 });
 
@@ -146,26 +215,38 @@ async function sheet(page) {
   await choose(page, "file", "new");
   const empty = await atRest(page, (state) => state.points.length === 0);
   assert.equal(empty.surfaces.length, 0);
-  await page.locator("#tool-curve").click();
-  await assertOnCanvas(page, ...corners);
-  for (const [index, corner] of corners.entries()) {
-    await page.mouse.click(...corner);
-    await untilInspect(page, (state) => state.corners === index + 1);
-  }
-  await page.mouse.click(...corners[0]);
-  const drawn = await atRest(page, (state) => state.curves.length === 1);
-  assert.equal(drawn.curves[0].closed, true);
+  const drawn = await closedCurve(page, corners, 1);
   assert.equal(drawn.points.length, 4);
-  for (const corner of corners) {
-    const nearest = Math.min(...drawn.points.map(({ screen }) => distance(screen, corner)));
-    assert.ok(nearest < 1.5, `a point is where ${corner} was clicked, not ${nearest} pixels away`);
-  }
   await page.locator("#tool-sheet").click();
-  const place = drawn.curves[0].screen.find((at) => corners.every((corner) => distance(at, corner) > 25));
-  await page.mouse.click(...place);
+  await page.mouse.click(...onCurve(drawn.curves[0], corners));
   const made = await atRest(page, (state) => state.surfaces.length === 1);
   assert.equal((await inspect(page)).act, made.act);
   return made;
+}
+
+/** Clicks places one after the other and the first again; returns the state with so many curves. */
+async function closedCurve(page, places, count) {
+  await page.locator("#tool-curve").click();
+  await assertOnCanvas(page, ...places);
+  for (const [index, place] of places.entries()) {
+    await page.mouse.click(...place);
+    await untilInspect(page, (state) => state.corners === index + 1);
+  }
+  await page.mouse.click(...places[0]);
+  const drawn = await atRest(page, (state) => state.curves.length === count);
+  assert.equal(drawn.curves[count - 1].closed, true);
+  for (const place of places) {
+    const nearest = Math.min(...drawn.points.map(({ screen }) => distance(screen, place)));
+    assert.ok(nearest < 1.5, `a point is where ${place} was clicked, not ${nearest} pixels away`);
+  }
+  return drawn;
+}
+
+/** A place on a curve away from its points. */
+function onCurve(curve, ends) {
+  const free = curve.screen.find((at) => ends.every((corner) => distance(at, corner) > 20));
+  assert.ok(free, "the curve has a place away from its points");
+  return free;
 }
 
 function file(name, text) {

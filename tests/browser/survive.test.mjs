@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { atRest, picture, point, pointAway, wide } from "./support/model.mjs";
+import { assertSame, atRest, picture, point, pointAway, pulled, said, wide } from "./support/model.mjs";
 import { inspect, open, provoke, started, untilInspect, withPage } from "./support/page.mjs";
 import { colours, difference } from "./support/pixels.mjs";
 import { drag } from "./support/pointer.mjs";
@@ -127,22 +127,3 @@ test("two tabs keep their own documents", async () => {
     await session.close();
   }
 });
-
-/** Pulls point 7 up a little, so that the document is none that the page could guess. */
-async function pulled(page) {
-  const before = await atRest(page);
-  const from = point(before, 7).screen;
-  await drag(page, from, [from[0] + 3, from[1] - 20]);
-  return atRest(page, (state) => state.document !== before.document);
-}
-
-/** Waits for a banner; some go by themselves. */
-function said(page, text) {
-  return untilInspect(page, ({ banners }) => banners.some((banner) => text.test(banner)));
-}
-
-function assertSame(after, before) {
-  assert.equal(after.document, before.document, "the document is the last committed one");
-  const ratio = after.figures.energy / before.figures.energy;
-  assert.ok(Math.abs(ratio - 1) < 0.02, `the shape is the same but for ${ratio}`);
-}

@@ -3,6 +3,7 @@
 import assert from "node:assert/strict";
 import { inspect, untilInspect } from "./page.mjs";
 import { pixels } from "./pixels.mjs";
+import { drag } from "./pointer.mjs";
 
 /** Wide enough for the layout with panels at the sides, small enough for rendering by software. */
 export const wide = { width: 900, height: 560 };
@@ -44,12 +45,12 @@ export async function pointAway(page) {
   await untilInspect(page, (state) => state.hover === null);
 }
 
-/** The middle of the picture, where no panel, banner or toast lies, once everything known has been drawn. */
+/** The middle of the picture, where no panel, welcome or toast lies, once everything known has been drawn. */
 export async function picture(page) {
   await drawn(page);
   const { width, height } = page.viewportSize();
   const whole = await pixels(page, undefined);
-  const [left, top, right, bottom] = [60, 60, width - 240, height - 140];
+  const [left, top, right, bottom] = [60, 104, width - 240, height - 140];
   const part = { width: right - left, height: bottom - top, data: Buffer.alloc(4 * (right - left) * (bottom - top)) };
   for (let y = 0; y < part.height; y += 1) {
     const start = 4 * ((top + y) * whole.width + left);
@@ -73,4 +74,32 @@ export async function choose(page, menu, command) {
 /** The document after the last act, read. */
 export async function documentOf(page) {
   return JSON.parse((await inspect(page)).document);
+}
+
+/** A place of the surface far from all controls, and where to drag it. */
+export function onBareSurface(state) {
+  const corners = [3, 4, 6, 7].map((id) => point(state, id).screen);
+  const from = [0, 1].map((axis) => corners.reduce((sum, place) => sum + place[axis], 0) / corners.length);
+  for (const { screen } of state.points) assert.ok(distance(screen, from) > 30);
+  return [from, [from[0] + 15, from[1] - 80]];
+}
+
+/** Pulls point 7 up a little, so that the document is none that the page could guess. */
+export async function pulled(page) {
+  const before = await atRest(page);
+  const from = point(before, 7).screen;
+  await drag(page, from, [from[0] + 3, from[1] - 20]);
+  return atRest(page, (state) => state.document !== before.document);
+}
+
+/** Waits for a banner; some go by themselves. */
+export function said(page, text) {
+  return untilInspect(page, ({ banners }) => banners.some((banner) => text.test(banner)));
+}
+
+/** Fails unless the document is the same and the shape has the same energy. */
+export function assertSame(after, before) {
+  assert.equal(after.document, before.document, "the document is the last committed one");
+  const ratio = after.figures.energy / before.figures.energy;
+  assert.ok(Math.abs(ratio - 1) < 0.02, `the shape is the same but for ${ratio}`);
 }

@@ -88,7 +88,7 @@ export function inspect(page) {
   return page.evaluate(() => JSON.parse(window.wasmBindings?.inspect() || "null"));
 }
 
-/** Brings trouble about: `lose-device`, `kill-worker`, `hang-worker` or `worker-panic`. */
+/** Brings trouble about: `lose-device`, `kill-worker`, `hang-worker` or `trap-worker` (a panic inside of it). */
 export function provoke(page, what) {
   return page.evaluate((word) => window.wasmBindings.provoke(word), what);
 }
