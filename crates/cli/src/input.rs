@@ -32,7 +32,7 @@ pub(crate) enum CliError {
         /// What is wrong, and where.
         reason: TextError,
     },
-    /// A document was refused by the modeler.
+    /// What a file holds was refused.
     #[error("{}: {reason}", .file.display())]
     Refused {
         /// Which file.
@@ -50,16 +50,22 @@ pub(crate) enum CliError {
 
 /// The text of a file, or of standard input for `-`; never more than a document may have.
 pub(crate) fn read(file: &Path) -> Result<String, CliError> {
+    read_up_to(file, MAX_TEXT_BYTES)
+}
+
+/// The text of a file, or of standard input for `-`, of at most that many bytes.
+pub(crate) fn read_up_to(file: &Path, most_bytes: usize) -> Result<String, CliError> {
     let fail = |reason| CliError::Read { file: file.to_owned(), reason };
-    let limit = MAX_TEXT_BYTES as u64 + 1;
+    let limit = most_bytes as u64 + 1;
     let mut bytes = Vec::new();
     if file.as_os_str() == "-" {
         std::io::stdin().lock().take(limit).read_to_end(&mut bytes).map_err(fail)?;
     } else {
         std::fs::File::open(file).and_then(|f| f.take(limit).read_to_end(&mut bytes)).map_err(fail)?;
     }
-    if bytes.len() > MAX_TEXT_BYTES {
-        return Err(CliError::Text { file: file.to_owned(), reason: TextError::TooLong(bytes.len()) });
+    if bytes.len() > most_bytes {
+        let reason = format!("the file is longer than {most_bytes} bytes");
+        return Err(CliError::Refused { file: file.to_owned(), reason });
     }
     String::from_utf8(bytes)
         .map_err(|_| fail(std::io::Error::new(std::io::ErrorKind::InvalidData, "not UTF-8 text")))

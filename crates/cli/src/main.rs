@@ -1,12 +1,14 @@
 //! `ductile`: the modeler without a window. Specification in, mesh and numbers out.
 //!
-//! Exit status: 0 when it worked, 1 when the shape did not come to rest, 2 when the input or the command is bad.
+//! Exit status: 0 when it worked, 1 when the shape did not come to rest or a reference file is not verified, 2 when the
+//! input or the command is bad.
 //! Results go to standard output or files, everything else to standard error.
 
 mod check;
 mod input;
 mod link;
 mod solve;
+mod verify;
 
 use clap::{Parser, Subcommand};
 use std::path::PathBuf;
@@ -42,6 +44,8 @@ enum Command {
         /// A link, a fragment, or - for standard input
         link: String,
     },
+    /// Compute the figures of reference files again and compare
+    Verify(verify::Options),
 }
 
 fn main() -> ExitCode {
@@ -50,6 +54,7 @@ fn main() -> ExitCode {
         Command::Solve(options) => solve::run(&options),
         Command::Check { file } => check::run(&file).map(|()| ExitCode::SUCCESS),
         Command::Link { spec, base } => link::link(&spec, &base).map(|()| ExitCode::SUCCESS),
+        Command::Verify(options) => verify::run(&options),
         Command::Unlink { link } => link::unlink(&link).map(|()| ExitCode::SUCCESS),
     };
     outcome.unwrap_or_else(|error| {

@@ -55,4 +55,4 @@ pub use predictor::Predicted;
 pub use report::StepReport;
 pub use rings::{MAX_RING, RingError, Rings};
 pub use smooth::SmoothReport;
-pub use surface::SurfaceSolver;
+pub use surface::{Frozen, NodeFigures, SurfaceSolver};

@@ -14,6 +14,12 @@
 //! assert!(report.energy <= report.energy_before);
 //! ```
 
+mod figures;
+mod frozen;
+
+pub use figures::NodeFigures;
+pub use frozen::Frozen;
+
 use glam::DVec3;
 
 use crate::assembly::{Assembly, Rows};

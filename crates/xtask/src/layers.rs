@@ -16,7 +16,8 @@ const MEMBERS: &[(&str, &[&str])] = &[
     ("ductile-modeler", &["ductile-spec", "ductile-mesh", "ductile-solver", "ductile-patch"]),
     ("ductile-worker", &["ductile-spec", "ductile-modeler"]),
     ("ductile-viewer", &["ductile-spec"]),
-    ("ductile-cli", &["ductile-spec", "ductile-modeler"]),
+    // `verify` compares the solver itself with recorded figures, below the modeler.
+    ("ductile-cli", &["ductile-spec", "ductile-modeler", "ductile-solver"]),
     ("xtask", &[]),
 ];
 
