@@ -53,7 +53,7 @@ impl Real for f64 {
         value
     }
     #[inline(always)]
-    fn gather(mut value: impl FnMut(usize) -> f64) -> Self {
+    fn gather(mut value: impl FnMut(usize) -> Self) -> Self {
         value(0)
     }
     #[inline(always)]

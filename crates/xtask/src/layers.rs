@@ -36,6 +36,7 @@ const HOMES: &[(&str, &[&str])] = &[
     ("miniz_oxide", &["ductile-spec"]),
     ("base64", &["ductile-spec"]),
     ("faer", &["ductile-solver"]),
+    ("wide", &["ductile-solver"]),
     ("clap", &["ductile-cli"]),
     ("wasm-bindgen", &["ductile-worker", "ductile-viewer"]),
     ("wasm-bindgen-futures", &["ductile-worker", "ductile-viewer"]),
