@@ -11,6 +11,8 @@ use std::collections::BTreeMap;
 
 /// Jacobian of a fit from which on the mesh resolves the shape (recipe, section 7).
 const RESOLVED: f64 = 0.7;
+/// An edge longer than this many spacings is worn. (At rest edges are split from 1.35 on.)
+const STRETCHED: f64 = 1.8;
 
 /// What the controls ask of the nodes that follow them.
 #[derive(Clone, Debug, Default)]
@@ -82,9 +84,8 @@ impl BoundSurface {
         for v in shape.controlled() {
             fixed[compact[v.index()] as usize] = true;
         }
-        let mut solver = SurfaceSolver::new(rings, fixed, Settings::default()).map_err(fail)?;
+        let solver = SurfaceSolver::new(rings, fixed, Settings::default()).map_err(fail)?;
         let positions: Vec<DVec3> = vertices.iter().map(|v| shape.positions[v.index()]).collect();
-        solver.fit_all(&positions);
         Ok(Self { revision: shape.revision, solver, positions, vertices, compact })
     }
 
@@ -134,17 +135,24 @@ impl BoundSurface {
     /// quadratic says nothing about the surface around, and what is plain is safer there.
     fn resolved(&self, v: VertexId) -> Option<u32> {
         let node = self.compact.get(v.index()).copied().filter(|node| *node != u32::MAX)?;
-        self.solver.jacobians().nth(node as usize).filter(|j| *j >= RESOLVED).map(|_| node)
+        (self.solver.jacobian(node) >= RESOLVED).then_some(node)
     }
 
     /// Moves free vertices towards even spacing; returns whether any moved noticeably.
     pub(crate) fn smooth(&mut self, fraction: f64) -> bool {
         let movable: Vec<bool> = self.solver.fixed().iter().map(|fixed| !fixed).collect();
-        let report = self.solver.smooth(&mut self.positions, &movable, fraction);
-        if report.moved > 0 {
-            self.solver.fit_all(&self.positions);
-        }
-        report.moved > 0
+        self.solver.smooth(&mut self.positions, &movable, fraction).moved > 0
+    }
+
+    /// Brings fits, normals and energy up to the positions. Costs nothing when they are.
+    pub(crate) fn fit(&mut self) {
+        self.solver.evaluate(&self.positions);
+    }
+
+    /// Whether the mesh no longer does for the shape: an edge stretched far beyond the spacing, or a place that it
+    /// does not resolve.
+    pub(crate) fn is_worn(&self, spacing: f64) -> bool {
+        self.solver.longest_edge() > STRETCHED * spacing || self.solver.jacobians().any(|j| j < RESOLVED)
     }
 
     /// Writes the positions back into the shape.
@@ -156,14 +164,8 @@ impl BoundSurface {
 
     /// Takes over positions that were changed elsewhere.
     pub(crate) fn read(&mut self, shape: &SurfaceShape) {
-        let mut changed = false;
         for (v, at) in self.vertices.iter().zip(&mut self.positions) {
-            let now = shape.positions[v.index()];
-            changed |= now != *at;
-            *at = now;
-        }
-        if changed {
-            self.solver.fit_all(&self.positions);
+            *at = shape.positions[v.index()];
         }
     }
 

@@ -105,8 +105,14 @@ impl Relaxer {
         all_rest || self.steps_since_act >= MOST_STEPS
     }
 
-    /// Makes sure that there is a solver for each shape as it is now, and none for others.
+    /// Makes sure that there is a solver for each shape as it is now, fitted to it, and none for others.
     pub(crate) fn bind(&mut self, model: &Model) {
+        self.rebind(model);
+        self.surfaces.values_mut().for_each(BoundSurface::fit);
+    }
+
+    /// The same without the fits.
+    fn rebind(&mut self, model: &Model) {
         self.surfaces
             .retain(|id, bound| model.surfaces.get(id).is_some_and(|s| s.revision == bound.revision));
         self.curves.retain(|id, bound| model.curves.get(id).is_some_and(|c| c.revision == bound.revision));
@@ -136,9 +142,10 @@ impl Relaxer {
 
     /// One shape iteration with at most so many conjugate-gradient iterations for each surface.
     pub(crate) fn step(&mut self, model: &mut Model, iterations: u32) {
-        self.bind(model);
+        self.rebind(model);
         let budget = Budget { iterations: iterations.clamp(1, 10_000) };
         let is_fast = self.hand > model.spacing();
+        let is_moving = self.hand > 0.0;
         self.fast = if is_fast { SLOW_STEPS } else { self.fast.saturating_sub(1) };
         self.hand = 0.0;
         self.steps = self.steps.saturating_add(1);
@@ -150,9 +157,18 @@ impl Relaxer {
             self.step_surface(model, id, budget);
         }
         let is_due = self.steps.is_multiple_of(MAINTENANCE_PERIOD) && self.fast == 0;
-        if is_due {
+        // A mesh that still does can wait until the hand rests: a new one costs the frame a new factorisation.
+        if is_due && (!is_moving || self.is_worn(model)) {
             self.maintain(model);
         }
+        self.surfaces.values_mut().for_each(BoundSurface::fit);
+    }
+
+    /// Whether any mesh no longer does for its shape.
+    fn is_worn(&self, model: &Model) -> bool {
+        self.surfaces
+            .iter()
+            .any(|(id, bound)| model.surfaces.get(id).is_some_and(|shape| bound.is_worn(shape.spacing)))
     }
 
     fn step_curve(&mut self, model: &mut Model, id: CurveId) {
@@ -240,7 +256,7 @@ impl Relaxer {
             let Some(bound) = self.surfaces.get(&id) else { continue };
             let edited = maintain::surface(model, id, bound);
             if edited {
-                self.bind(model);
+                self.rebind(model);
             }
             let (Some(bound), Some(shape)) = (self.surfaces.get_mut(&id), model.surfaces.get_mut(&id)) else {
                 continue;

@@ -82,17 +82,30 @@ impl CarefulFit {
     }
 }
 
-impl Fit<f64> {
-    /// The fitted quadratic at normalised coordinates, relative to the node; `linear` scales the first-order part.
+impl<T: Real> Fit<T> {
+    /// The quadratic of one lane.
+    #[inline]
+    pub(crate) fn quadratic(&self, lane: usize) -> Quadratic {
+        Quadratic(self.d.map(|d| d.lane(lane)))
+    }
+}
+
+/// A fitted quadratic relative to its node, over normalised coordinates: D1 to D5.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Quadratic([DVec3; 5]);
+
+impl Quadratic {
+    /// Its value; `linear` scales the first-order part.
+    #[inline]
     pub(crate) fn evaluate(&self, u: f64, v: f64, linear: f64) -> DVec3 {
-        let d = self.d.map(|d| d.lane(0));
+        let d = &self.0;
         let second = d[2] * (0.5 * u * u) + d[3] * (u * v * FRAC_1_SQRT_2) + d[4] * (0.5 * v * v);
         (d[0] * u + d[1] * v) * linear + second
     }
 
-    /// The derivatives of the fitted quadratic by `u` and `v`.
+    /// Its derivatives by `u` and `v`.
     pub(crate) fn tangents(&self, u: f64, v: f64) -> [DVec3; 2] {
-        let d = self.d.map(|d| d.lane(0));
+        let d = &self.0;
         let mixed = d[3] * FRAC_1_SQRT_2;
         [d[0] + d[2] * u + mixed * v, d[1] + mixed * u + d[4] * v]
     }

@@ -5,7 +5,8 @@
 
 use glam::DVec3;
 
-use crate::fit::{self, CarefulFit};
+use crate::fit::{self, CarefulFit, Fit};
+use crate::lanes::{Pair, Real};
 use crate::neighbourhood::Ring;
 use crate::rings::Rings;
 
@@ -37,56 +38,93 @@ pub(crate) fn smooth(
     lengths: Option<&[f64]>,
 ) -> SmoothReport {
     assert_eq!(movable.len(), rings.len(), "one flag per node");
-    let mut report = SmoothReport::default();
     let old = positions.to_vec();
-    let mut ring = Ring::default();
-    for (node, _) in (0_u32..).zip(movable).filter(|(_, movable)| **movable) {
-        let careful = fit_at(rings, &old, node, &mut ring);
-        if !careful.is_fitted() {
+    let mut sweep = Sweep { rings, positions, fraction, lengths, report: SmoothReport::default() };
+    let (mut pair, mut single) = (Ring::<Pair>::default(), Ring::<f64>::default());
+    for batch in rings.batches() {
+        let lanes = (0..batch.count).filter(|&lane| movable[batch.nodes[lane] as usize]);
+        if lanes.clone().next().is_none() {
             continue;
         }
-        let (node, fit) = (node as usize, &careful.fit);
+        if batch.is_regular() && !batch.is_boundary {
+            pair.load(rings, &old, batch.nodes);
+            if pair.unroll() {
+                let (fit, is_ordinary) = fit::fit_ordinary::<Pair, 5>(&pair);
+                if is_ordinary {
+                    lanes.for_each(|lane| sweep.move_node(batch.nodes[lane], &pair, &fit, lane));
+                    continue;
+                }
+            }
+        }
+        for lane in lanes {
+            let careful = fit_at(rings, &old, batch.nodes[lane], &mut single);
+            if careful.is_fitted() {
+                sweep.move_node(batch.nodes[lane], &single, &careful.fit, 0);
+            }
+        }
+    }
+    sweep.report
+}
+
+/// A smoothing sweep on its way.
+struct Sweep<'a> {
+    rings: &'a Rings,
+    positions: &'a mut [DVec3],
+    fraction: f64,
+    lengths: Option<&'a [f64]>,
+    report: SmoothReport,
+}
+
+impl Sweep<'_> {
+    fn move_node<T: Real>(&mut self, node: u32, ring: &Ring<T>, fit: &Fit<T>, lane: usize) {
         let (u, v) = if ring.is_boundary {
             // Along the boundary only: its two neighbours lie on the u axis.
-            (0.5 * (ring.r[0] - ring.r[ring.degree - 1]) / ring.h, 0.0)
+            let ends = ring.r[0].lane(lane) - ring.r[ring.degree - 1].lane(lane);
+            (0.5 * ends / ring.h.lane(lane), 0.0)
         } else {
-            centroid(rings, node, &ring, lengths)
+            self.centroid(node, ring, lane)
         };
-        let (u, v) = (fraction * u, fraction * v);
+        let (u, v) = (self.fraction * u, self.fraction * v);
         let distance = (u * u + v * v).sqrt();
         // Written so that NaN stays put.
         if !(distance >= SMALLEST_MOVE) {
-            continue;
+            return;
         }
         let cut = if distance > LARGEST_MOVE { LARGEST_MOVE / distance } else { 1.0 };
-        let moved = positions[node] + fit.evaluate(u * cut, v * cut, 1.0);
+        let position = &mut self.positions[node as usize];
+        let moved = *position + fit.quadratic(lane).evaluate(u * cut, v * cut, 1.0);
         if moved.is_finite() {
-            positions[node] = moved;
-            report.moved += 1;
-            report.largest_relative_move = report.largest_relative_move.max(distance * cut);
+            *position = moved;
+            self.report.moved += 1;
+            self.report.largest_relative_move = self.report.largest_relative_move.max(distance * cut);
         }
     }
-    report
-}
 
-/// Area centroid of the fan in normalised coordinates, triangles weighed by `area / h*²` if lengths are given.
-fn centroid(rings: &Rings, node: usize, unrolled: &Ring<f64>, lengths: Option<&[f64]>) -> (f64, f64) {
-    let ring = rings.ring(node);
-    let Ring { r, cos, sin, h, .. } = unrolled;
-    let (mut sum_u, mut sum_v, mut sum) = (0.0, 0.0, 0.0);
-    for j in 0..unrolled.gaps() {
-        let next = unrolled.next(j);
-        let area = r[j] * r[next] * (cos[j] * sin[next] - sin[j] * cos[next]);
-        let weight = lengths.map_or(1.0, |lengths| {
-            let wanted = (lengths[node] + lengths[ring[j] as usize] + lengths[ring[next] as usize]) / 3.0;
-            1.0 / (wanted * wanted)
-        });
-        let mass = area.max(0.0) * weight;
-        sum += mass;
-        sum_u += mass * (r[j] * cos[j] + r[next] * cos[next]);
-        sum_v += mass * (r[j] * sin[j] + r[next] * sin[next]);
+    /// Area centroid of the fan in normalised coordinates, triangles weighed by `area / h*²` if lengths are given.
+    fn centroid<T: Real>(&self, node: u32, unrolled: &Ring<T>, lane: usize) -> (f64, f64) {
+        let ring = self.rings.ring(node as usize);
+        let h = unrolled.h.lane(lane);
+        let spoke = |j: usize| {
+            let r = unrolled.r[j].lane(lane);
+            (r * unrolled.cos[j].lane(lane), r * unrolled.sin[j].lane(lane))
+        };
+        let (mut sum_u, mut sum_v, mut sum) = (0.0, 0.0, 0.0);
+        for j in 0..unrolled.gaps() {
+            let next = unrolled.next(j);
+            let (near, far) = (spoke(j), spoke(next));
+            let area = near.0 * far.1 - near.1 * far.0;
+            let weight = self.lengths.map_or(1.0, |lengths| {
+                let corners = [node, ring[j], ring[next]].map(|node| lengths[node as usize]);
+                let wanted = (corners[0] + corners[1] + corners[2]) / 3.0;
+                1.0 / (wanted * wanted)
+            });
+            let mass = area.max(0.0) * weight;
+            sum += mass;
+            sum_u += mass * (near.0 + far.0);
+            sum_v += mass * (near.1 + far.1);
+        }
+        if sum > 0.0 { (sum_u / (3.0 * sum * h), sum_v / (3.0 * sum * h)) } else { (0.0, 0.0) }
     }
-    if sum > 0.0 { (sum_u / (3.0 * sum * h), sum_v / (3.0 * sum * h)) } else { (0.0, 0.0) }
 }
 
 /// The fit of one node, and its ring unrolled.
@@ -104,7 +142,7 @@ pub(crate) fn place_on_edge(rings: &Rings, positions: &[DVec3], a: u32, b: u32) 
         let careful = fit_at(rings, positions, node, &mut ring);
         let (u, v) = ring.uv(place, 1.0 / ring.h);
         // q(t) = second(t): q(1/2) - q(1)/2 = -second/4, whatever the linear part.
-        let rise = careful.fit.evaluate(u, v, 0.0) * -0.25;
+        let rise = careful.fit.quadratic(0).evaluate(u, v, 0.0) * -0.25;
         (careful.is_fitted() && rise.is_finite()).then_some(rise)
     };
     match (rise(a, b), rise(b, a)) {
@@ -123,7 +161,7 @@ pub(crate) fn place_near(rings: &Rings, positions: &[DVec3], node: u32, at: DVec
     if rings.is_boundary(node as usize) || !careful.is_fitted() {
         return None;
     }
-    let fit = &careful.fit;
+    let fit = careful.fit.quadratic(0);
     let (mut u, mut v) = (0.0, 0.0);
     for _ in 0..FOOT_STEPS {
         let [along_u, along_v] = fit.tangents(u, v);

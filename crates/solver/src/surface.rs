@@ -218,6 +218,15 @@ impl SurfaceSolver {
         self.refit(positions, Wanted::Energy);
     }
 
+    /// The same with the gradient and the rows of the matrix: the next step or prediction from here begins with them.
+    ///
+    /// # Panics
+    /// When there is not one position per node.
+    pub fn evaluate(&mut self, positions: &[DVec3]) {
+        assert_eq!(positions.len(), self.rings.len(), "one position per node");
+        self.refit(positions, Wanted::Gradient);
+    }
+
     /// Unit normals of the newest fit, towards the side from which the rings run counter-clockwise.
     pub fn normals(&self) -> &[DVec3] {
         &self.normals
@@ -236,6 +245,19 @@ impl SurfaceSolver {
     /// Jacobian of every node's fit: near 1 where the mesh resolves the shape, below 0.7 where it should be refined.
     pub fn jacobians(&self) -> impl ExactSizeIterator<Item = f64> {
         self.fits.nodes.iter().map(|fit| fit.jacobian)
+    }
+
+    /// The longest edge in the newest fit.
+    pub fn longest_edge(&self) -> f64 {
+        self.fits.lengths.iter().fold(0.0, |longest, &length| longest.max(length))
+    }
+
+    /// The Jacobian of one node's fit.
+    ///
+    /// # Panics
+    /// When there is no such node.
+    pub fn jacobian(&self, node: u32) -> f64 {
+        self.fits.nodes[node as usize].jacobian
     }
 
     /// Exact `dE/dp` of every node in the newest fit, and the energy.
@@ -270,7 +292,7 @@ impl SurfaceSolver {
         fraction: f64,
         lengths: Option<&[f64]>,
     ) -> SmoothReport {
-        self.fit_all(positions);
+        assert_eq!(positions.len(), self.rings.len(), "one position per node");
         let report = smooth::smooth(&self.rings, positions, movable, fraction, lengths);
         if report.moved > 0 {
             self.quiet_steps = 0;

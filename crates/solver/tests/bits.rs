@@ -70,6 +70,6 @@ fn curve_gives_the_recorded_bits() {
     assert_eq!(hash(&even.positions), CURVE, "{:#018x}", hash(&even.positions));
 }
 
-const DISC: u64 = 0xd562_7b79_d0e8_8ed4;
-const SPHERE: u64 = 0xf5bd_8c74_5f35_e1f6;
+const DISC: u64 = 0x327d_c14b_98b5_8ee4;
+const SPHERE: u64 = 0x2cda_6b51_7f0d_3107;
 const CURVE: u64 = 0xf496_117b_d39c_54ee;
