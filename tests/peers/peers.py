@@ -1,0 +1,256 @@
+"""Peers on the meshes that the command line writes: one linear fair solve, one remeshing, and what their triangles are like.
+
+    python -m venv target/peers && target/peers/bin/pip install -r tests/peers/requirements.txt
+    target/peers/bin/python tests/peers/peers.py [--ductile PATH]
+
+Each peer runs in a process of its own with a time limit, so that one that crashes or hangs is a line in the table and nothing
+more. The linear solve is biharmonic, with the boundary and one inner node held; ours is the non-linear one, to rest and with the
+mesh improved on the way, so it is given for orientation only. The torus is made here: the command line writes no torus, and it
+does not read meshes, so there is no line of ours for it; the quality of our triangles is that of the mesh it wrote.
+"""
+
+import argparse
+import json
+import math
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+
+import numpy as np
+
+HERE = pathlib.Path(__file__).resolve().parent
+TOP = HERE.parent.parent
+LIMIT = 120  # seconds that a peer may take
+REPEATS = 5  # of a timing, of which the median is given
+
+
+def read_obj(path):
+    vertices, faces = [], []
+    for line in pathlib.Path(path).read_text().splitlines():
+        words = line.split()
+        if words[:1] == ["v"]:
+            vertices.append([float(word) for word in words[1:4]])
+        elif words[:1] == ["f"]:
+            faces.append([int(word.split("/")[0]) - 1 for word in words[1:4]])
+    return np.array(vertices), np.array(faces, dtype=np.int64)
+
+
+def write_obj(path, vertices, faces):
+    lines = ["v %r %r %r" % tuple(map(float, v)) for v in vertices] + ["f %d %d %d" % tuple(f + 1) for f in faces]
+    pathlib.Path(path).write_text("\n".join(lines) + "\n")
+
+
+def torus(around=200, across=50, major=2.0, minor=1.0):
+    """Triangles up to three times longer one way than the other."""
+    u, v = np.meshgrid(np.arange(around), np.arange(across), indexing="ij")
+    a, b = 2 * np.pi * u / around, 2 * np.pi * v / across
+    ring = major + minor * np.cos(b)
+    vertices = np.stack([ring * np.cos(a), ring * np.sin(a), minor * np.sin(b)], -1).reshape(-1, 3)
+    node = lambda i, j: (i % around) * across + j % across
+    p, q, r, s = node(u, v), node(u + 1, v), node(u + 1, v + 1), node(u, v + 1)
+    faces = np.concatenate([np.stack([p, q, r], -1).reshape(-1, 3), np.stack([p, r, s], -1).reshape(-1, 3)])
+    return vertices, faces.astype(np.int64)
+
+
+def edges(faces):
+    """Every edge once, and how many faces it has."""
+    sides = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+    return np.unique(sides, axis=0, return_counts=True)
+
+
+def boundary(faces):
+    found, counts = edges(faces)
+    return np.unique(found[counts == 1])
+
+
+def quality(vertices, faces):
+    """Angles in degrees, the share of inner nodes with degree 6, and the spread of the edges."""
+    corners = vertices[faces]
+    angles = []
+    for k in range(3):
+        a, b = corners[:, (k + 1) % 3] - corners[:, k], corners[:, (k + 2) % 3] - corners[:, k]
+        angles.append(np.degrees(np.arctan2(np.linalg.norm(np.cross(a, b), axis=1), np.sum(a * b, axis=1))))
+    least = np.min(angles, axis=0)
+    found, _ = edges(faces)
+    lengths = np.linalg.norm(vertices[found[:, 0]] - vertices[found[:, 1]], axis=1)
+    degree = np.bincount(found.ravel(), minlength=len(vertices))
+    inner = np.ones(len(vertices), dtype=bool)
+    inner[boundary(faces)] = False
+    inner &= degree > 0
+    return {
+        "nodes": int(np.count_nonzero(degree)),
+        "least angle": float(least.min()),
+        "1 % angle": float(np.percentile(least, 1)),
+        "mean least": float(least.mean()),
+        "degree 6": float(np.mean(degree[inner] == 6)),
+        "edge max/mean": float(lengths.max() / lengths.mean()),
+    }
+
+
+def held(vertices, faces):
+    """Boundary and highest node, and where they are."""
+    nodes = np.append(boundary(faces), np.argmax(vertices[:, 2])).astype(np.int64)
+    return nodes, vertices[nodes]
+
+
+def solve_igl(vertices, faces):
+    import igl
+
+    nodes, places = held(vertices, faces)
+    return lambda: igl.harmonic(vertices, faces, nodes, np.ascontiguousarray(places), 2)
+
+
+def solve_gpytoolbox(vertices, faces):
+    import gpytoolbox
+
+    nodes, places = held(vertices, faces)
+
+    def solve():
+        energy = gpytoolbox.biharmonic_energy(vertices, faces, bc="mixedfem_zero_neumann")
+        return gpytoolbox.min_quad_with_fixed(energy, k=nodes, y=places)
+
+    return solve
+
+
+def solve_scipy(vertices, faces):
+    import igl
+    from scipy.sparse import diags
+    from scipy.sparse.linalg import splu
+
+    nodes, places = held(vertices, faces)
+    free = np.setdiff1d(np.arange(len(vertices)), nodes)
+
+    def solve():
+        stiffness = igl.cotmatrix(vertices, faces)
+        mass = igl.massmatrix(vertices, faces, igl.MASSMATRIX_TYPE_VORONOI)
+        matrix = (stiffness @ diags(1 / mass.diagonal()) @ stiffness).tocsc()
+        right = -matrix[free][:, nodes] @ places
+        inner = matrix[free][:, free].tocsc()
+        symmetric = {"SymmetricMode": True}
+        return splu(inner, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=symmetric).solve(right)
+
+    return solve
+
+
+def mean_edge(vertices, faces):
+    found, _ = edges(faces)
+    return float(np.linalg.norm(vertices[found[:, 0]] - vertices[found[:, 1]], axis=1).mean())
+
+
+def remesh_pymeshlab(vertices, faces):
+    import pymeshlab
+
+    def remesh():
+        meshes = pymeshlab.MeshSet()
+        meshes.add_mesh(pymeshlab.Mesh(vertices, faces))
+        length = pymeshlab.PureValue(mean_edge(vertices, faces))
+        meshes.meshing_isotropic_explicit_remeshing(iterations=10, targetlen=length)
+        return meshes.current_mesh().vertex_matrix(), meshes.current_mesh().face_matrix().astype(np.int64)
+
+    return remesh
+
+
+def remesh_gpytoolbox(vertices, faces):
+    import gpytoolbox
+
+    return lambda: gpytoolbox.remesh_botsch(vertices, faces.astype(np.int32), i=10, h=mean_edge(vertices, faces))
+
+
+def remesh_cgal(vertices, faces):
+    from compas_cgal.meshing import trimesh_remesh
+
+    return lambda: trimesh_remesh((vertices, faces.astype(np.int32)), mean_edge(vertices, faces), 10)
+
+
+WORK = {
+    "solve": {"igl harmonic, k = 2": solve_igl, "igl matrices, scipy splu": solve_scipy, "gpytoolbox": solve_gpytoolbox},
+    "remesh": {"pymeshlab": remesh_pymeshlab, "gpytoolbox remesh_botsch": remesh_gpytoolbox, "compas_cgal": remesh_cgal},
+}
+
+
+def one(kind, name, path):
+    """The work of one peer, in its own process: prints its figures as JSON."""
+    vertices, faces = read_obj(path)
+    work = WORK[kind][name](vertices, faces)
+    seconds = []
+    for _ in range(REPEATS if kind == "solve" else 1):
+        start = time.perf_counter()
+        found = work()
+        seconds.append(time.perf_counter() - start)
+    figures = {"seconds": float(np.median(seconds))}
+    if kind == "remesh":
+        new_vertices, new_faces = np.asarray(found[0], dtype=float), np.asarray(found[1], dtype=np.int64)
+        figures |= quality(new_vertices, new_faces)
+        figures["finite"] = bool(np.isfinite(new_vertices).all())
+    else:
+        figures["finite"] = bool(np.isfinite(np.asarray(found)).all())
+    print(json.dumps(figures))
+
+
+def run(kind, name, path):
+    command = [sys.executable, __file__, "--one", kind, name, str(path)]
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, timeout=LIMIT)
+    except subprocess.TimeoutExpired:
+        return f"no answer in {LIMIT} s"
+    if done.returncode < 0:
+        return f"ended by signal {-done.returncode}"
+    if done.returncode > 0:
+        return (done.stderr.strip().splitlines() or ["failed without a word"])[-1][:80]
+    figures = json.loads(done.stdout.splitlines()[-1])
+    return figures if figures.pop("finite") else "the result is not finite"
+
+
+QUALITY = ["nodes", "least angle", "1 % angle", "mean least", "degree 6", "edge max/mean"]
+
+
+def line(name, figures):
+    if isinstance(figures, str):
+        return f"| {name} | {figures} |" + " |" * len(QUALITY)
+    seconds = f"{figures['seconds']:.3f} s" if "seconds" in figures else ""
+    cells = [f"{figures[key]:.3g}" if key != "nodes" else str(figures[key]) for key in QUALITY if key in figures]
+    return f"| {name} | {seconds} | " + " | ".join(cells) + " |"
+
+
+def ductile(program, spec, out):
+    command = [program] if program else ["cargo", "run", "--release", "--quiet", "-p", "ductile-cli", "--"]
+    done = subprocess.run(
+        [*command, "solve", str(spec), "-o", str(out), "--report", "json"], capture_output=True, text=True, cwd=TOP
+    )
+    if done.returncode != 0:
+        sys.exit(f"ductile could not write the mesh: {done.stderr.strip()}")
+    return json.loads(done.stdout)
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments.add_argument("--ductile", help="the program, if it is built already")
+    arguments.add_argument("--one", nargs=3, help=argparse.SUPPRESS)
+    options = arguments.parse_args()
+    if options.one:
+        return one(*options.one)
+    with tempfile.TemporaryDirectory() as folder:
+        disc, ring = pathlib.Path(folder, "disc.obj"), pathlib.Path(folder, "torus.obj")
+        report = ductile(options.ductile, HERE / "disc.ductile.json", disc)
+        write_obj(ring, *torus())
+        print(f"load at the start: {os.getloadavg()[0]:.1f}\n")
+        shape = quality(*read_obj(disc))
+        print(f"Raised disc of {shape['nodes']} nodes, one linear biharmonic solve (median of {REPEATS}):\n")
+        print("| peer | time |\n| --- | --- |")
+        for name in WORK["solve"]:
+            figures = run("solve", name, disc)
+            print(f"| {name} | {figures if isinstance(figures, str) else '%.3f s' % figures['seconds']} |", flush=True)
+        print(f"| ductile: opening, and to rest in {report['steps']} non-linear steps | {report['seconds']:.3f} s |")
+        print("\nTriangles, and remeshing an anisotropic torus to its mean edge in ten rounds:\n")
+        print("| mesh | time | " + " | ".join(QUALITY) + " |\n" + "| --- " * (2 + len(QUALITY)) + "|")
+        print(line("disc as ductile wrote it", shape))
+        print(line("torus before", quality(*read_obj(ring))))
+        for name in WORK["remesh"]:
+            print(line(name, run("remesh", name, ring)), flush=True)
+
+
+if __name__ == "__main__":
+    main()
