@@ -3,7 +3,9 @@
 
 use acceptance::Bench;
 use core::f64::consts::PI;
-use ductile_spec::{CurveId, Edit, Example, PointId, Request, SurfaceId, Through, to_fragment};
+use ductile_spec::{
+    CurveId, Edit, Example, PointId, Remembered, Request, Resume, SurfaceId, Through, to_fragment,
+};
 use glam::{DVec3, dvec3};
 
 #[test]
@@ -110,6 +112,39 @@ fn a_document_built_by_acts_is_undone_to_nothing_and_redone_to_itself() {
     }
     assert!(bench.send(Request::Redo).refused.is_some());
     bench.rest(300);
+}
+
+#[test]
+fn a_new_modeler_goes_on_with_the_history_of_one_that_died() {
+    let mut first = Bench::with(Example::Disc);
+    let mut documents = vec![first.document.clone()];
+    for z in [0.2, 0.4] {
+        first.edit(Edit::Move { point: PointId(1), to: dvec3(0.7, 0.7, z) });
+        documents.push(first.document.clone());
+    }
+    let entry = |act: &str, document: &String| Remembered { act: act.into(), document: document.clone() };
+    let [opened, moved, again] = documents.as_slice() else { panic!("{} documents", documents.len()) };
+    let resume = Resume {
+        document: moved.clone(),
+        undo: vec![entry("Move", opened)],
+        redo: vec![entry("Move", again)],
+    };
+    let mut second = Bench::new();
+    let committed = second.accept(Request::Resume(resume.clone())).committed.unwrap();
+    assert_eq!((committed.undo.as_deref(), committed.redo.as_deref()), (Some("Move"), Some("Move")));
+    assert_eq!(&second.document, moved);
+    for (request, expected) in [(Request::Undo, opened), (Request::Redo, moved), (Request::Redo, again)] {
+        second.accept(request);
+        assert_eq!(&second.document, expected);
+        second.rest(300);
+    }
+
+    // A torn history is taken up as far as it can be read, a torn document not at all.
+    let torn = Resume { undo: vec![entry("Move", opened), entry("Torn", &"{".into())], ..resume.clone() };
+    let committed = second.accept(Request::Resume(torn)).committed.unwrap();
+    assert_eq!((committed.undo, committed.redo.as_deref()), (None, Some("Move")));
+    assert!(second.send(Request::Resume(Resume { document: "{".into(), ..resume })).refused.is_some());
+    assert_eq!(&second.document, moved);
 }
 
 #[test]

@@ -15,6 +15,7 @@ const size = { width: 1280, height: 720 };
 test("the page is worth a picture", async () => {
   await withPage({ viewport: size, context: { colorScheme: "light" } }, async (page) => {
     const before = await atRest(page);
+    await drawn(page);
     const empty = await pixels(page);
     const from = point(before, 7).screen;
     const to = [from[0] + 30, from[1] - 110];

@@ -1,19 +1,25 @@
-// Trouble: the worker dies, the graphics device is lost, the page is reloaded, there are two of it.
+// Trouble: the worker dies, the page is reloaded, there are two of it.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { assertSame, atRest, picture, point, pointAway, pulled, said, wide } from "./support/model.mjs";
+import { assertSame, atRest, point, pulled, said, wide } from "./support/model.mjs";
 import { inspect, open, provoke, started, untilInspect, withPage } from "./support/page.mjs";
-import { colours, difference } from "./support/pixels.mjs";
 import { drag } from "./support/pointer.mjs";
 
 test("a killed worker is replaced, the model comes back and can be worked with", async () => {
   await withPage({ viewport: wide }, async (page) => {
+    const older = await pulled(page);
     const before = await pulled(page);
     await provoke(page, "kill-worker");
     await said(page, /The solver stopped and was started again\. Nothing was lost/);
     const after = await atRest(page, (state) => state.restarts === 1 && state.worker === "ready");
     assertSame(after, before);
+    assert.equal(after.undo, before.undo, "what could be taken back still can");
+    await page.keyboard.press("Control+z");
+    const back = await atRest(page, (state) => state.document !== before.document);
+    assert.equal(back.document, older.document);
+    await page.keyboard.press("Control+Shift+Z");
+    assert.equal((await atRest(page, (state) => state.document !== older.document)).document, before.document);
     await pulled(page);
   });
 });
@@ -46,46 +52,6 @@ test("a worker that hangs is noticed and replaced", async () => {
     await said(page, /The solver stopped and was started again\. Only the drag was lost/);
     const after = await atRest(page, (state) => state.restarts === 1 && state.worker === "ready");
     assertSame(after, before);
-    await pulled(page);
-  });
-});
-
-test("a lost graphics device is replaced and shows the same picture", async () => {
-  await withPage({ viewport: wide }, async (page) => {
-    const before = await pulled(page);
-    await page.keyboard.press("Escape");
-    await pointAway(page);
-    const seen = await picture(page);
-    await provoke(page, "lose-device");
-    const after = await untilInspect(page, (state) => state.losses === 1 && state.gpu === "ready");
-    assert.equal(after.document, before.document);
-    assert.deepEqual(after.figures, before.figures, "the model is untouched, to the last step");
-    assert.equal(after.restarts, 0, "the worker had no part in it");
-    assert.match(after.banners.join(), /graphics device was lost and has been replaced/);
-    // The banner goes by itself.
-    await untilInspect(page, (state) => state.banners.length === 0 && state.pictures > before.pictures);
-    await pointAway(page);
-    const again = await picture(page);
-    assert.ok(colours(again) > 20);
-    const changed = difference(seen, again);
-    assert.ok(changed < 0.002, `the picture is the same but for ${changed}`);
-    await pulled(page);
-  });
-});
-
-test("a device lost again and again ends in a message that offers to try once more", async () => {
-  await withPage({ viewport: wide }, async (page) => {
-    const before = await atRest(page);
-    for (let losses = 1; losses <= 4; losses += 1) {
-      await untilInspect(page, (state) => state.gpu === "ready");
-      await provoke(page, "lose-device");
-      await untilInspect(page, (state) => state.losses === losses);
-    }
-    const lost = await untilInspect(page, (state) => state.banners.some((text) => /again and again/.test(text)));
-    assert.equal(lost.gpu, "lost");
-    assert.equal(lost.document, before.document);
-    await page.locator('[data-command="redo-stage"]').click();
-    await untilInspect(page, (state) => state.gpu === "ready");
     await pulled(page);
   });
 });

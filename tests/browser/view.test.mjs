@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { assertOnCanvas, atRest, distance, newPoints, picture, point, wide } from "./support/model.mjs";
+import { assertOnCanvas, atRest, distance, drawn, newPoints, picture, point, wide } from "./support/model.mjs";
 import { inspect, until, untilInspect, withPage } from "./support/page.mjs";
 import { colours, pixels } from "./support/pixels.mjs";
 import { drag, tap, touch } from "./support/pointer.mjs";
@@ -167,6 +167,7 @@ test("the picture follows the size of the window", async () => {
       await page.keyboard.press("Home");
       const state = await untilInspect(page, ({ camera, settled }) => settled && !camera.flying);
       for (const { screen } of state.points) assertInside(screen, size);
+      await drawn(page);
       assert.ok(colours(await pixels(page, "canvas")) > 12, `${size.width} × ${size.height} shows the model`);
       assert.equal(state.document, start.document);
       // What is picked is what is shown.

@@ -5,7 +5,7 @@
 //! and approximates the shape anew.
 
 use crate::model::Model;
-use ductile_spec::Document;
+use ductile_spec::{Document, Remembered, from_text};
 use std::sync::Arc;
 
 /// Bytes of shapes that the history may hold.
@@ -36,6 +36,20 @@ pub(crate) struct History {
 }
 
 impl History {
+    /// The history of a modeler that died. An entry that cannot be read ends it: what is older is out of reach.
+    pub(crate) fn remembered(undo: &[Remembered], redo: &[Remembered]) -> Self {
+        let read = |entries: &[Remembered]| {
+            let readable = entries.iter().rev().map_while(|Remembered { act, document }| {
+                let document = from_text(document).ok()?;
+                Some(Entry { act: act.clone(), state: State::Document(Arc::new(document)) })
+            });
+            let mut entries: Vec<Entry> = readable.take(MOST_ACTS).collect();
+            entries.reverse();
+            entries
+        };
+        Self { undo: read(undo), redo: read(redo) }
+    }
+
     /// Remembers the model before an act.
     pub(crate) fn record(&mut self, act: &str, before: Model) {
         self.redo.clear();

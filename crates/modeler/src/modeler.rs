@@ -12,7 +12,7 @@ use ductile_mesh::Mesh;
 use ductile_mesh::io::obj;
 use ductile_spec::{
     Committed, Document, Edit, ExportFormat, Exported, FrameHeader, GrabTarget, Grabbed, Refusal, Reply,
-    Request, Step, SurfaceId, from_fragment, from_text, to_compact_text,
+    Request, Resume, Step, SurfaceId, from_fragment, from_text, to_compact_text,
 };
 use glam::DVec3;
 
@@ -109,6 +109,7 @@ impl Modeler {
             Request::OpenLink { link } => self.open("Open link", from_fragment(&link)?),
             Request::OpenExample(kind) => self.open(kind.title(), example(kind)),
             Request::New => self.open("New", Document::default()),
+            Request::Resume(resume) => self.resume(&resume),
             Request::Edit(edit) => self.edit(&edit),
             Request::Grab(target) => self.take_hold(target),
             Request::Step(step) => {
@@ -137,6 +138,18 @@ impl Modeler {
         self.record(act, before);
         self.relaxer.wake();
         Ok(Outcome { committed: Some(act.to_owned()), ..Outcome::default() })
+    }
+
+    /// Goes on where another modeler stopped, with its history in place of this one's own.
+    fn resume(&mut self, resume: &Resume) -> Result<Outcome, ModelError> {
+        let mut fresh = Model::from_document(from_text(&resume.document)?)?;
+        self.grab = None;
+        fresh.continue_revisions(&self.model);
+        fresh.renew_revisions();
+        self.model = fresh;
+        self.history = History::remembered(&resume.undo, &resume.redo);
+        self.relaxer.wake();
+        Ok(Outcome { committed: Some("Resume".to_owned()), ..Outcome::default() })
     }
 
     fn record(&mut self, act: &str, before: Model) {
@@ -306,6 +319,7 @@ fn label(request: &Request) -> &'static str {
         Request::OpenLink { .. } => "Open link",
         Request::OpenExample(kind) => kind.title(),
         Request::New => "New",
+        Request::Resume(_) => "Resume",
         Request::Edit(edit) => edit.label(),
         Request::Grab(_) | Request::Drop | Request::Cancel => "Drag",
         Request::Step(_) => "Step",

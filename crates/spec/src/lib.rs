@@ -25,7 +25,9 @@ pub use frame::{
     SurfaceSummary, VERTEX_FLOATS, vertex_layout,
 };
 pub use id::{CurveId, PointId, SurfaceId};
-pub use protocol::{Committed, ExportFormat, Exported, Grabbed, Refusal, Reply, Request, Step, TRAP};
+pub use protocol::{
+    Committed, ExportFormat, Exported, Grabbed, Refusal, Remembered, Reply, Request, Resume, Step, TRAP,
+};
 pub use share::{FRAGMENT_KEY, LinkError, MAX_LINK_BYTES, from_fragment, to_fragment};
 pub use text::{FORMAT_VERSION, MAX_TEXT_BYTES, TextError, from_text, to_compact_text, to_text};
 pub use validate::Defect;

@@ -32,6 +32,8 @@ pub enum Request {
     OpenExample(Example),
     /// Begins again with nothing.
     New,
+    /// Goes on where a modeler that died has stopped.
+    Resume(Resume),
     /// Acts on the document.
     Edit(Edit),
     /// Takes hold of something; a place on a curve or surface becomes a control point there.
@@ -50,6 +52,26 @@ pub enum Request {
     Export(ExportFormat),
     /// Asks for the structure and the document anew, for a page that has just connected.
     Describe,
+}
+
+/// What a page remembers of a modeler that died: all texts are its own.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Resume {
+    /// The document after its last act.
+    pub document: String,
+    /// What undo takes back, the last act last.
+    pub undo: Vec<Remembered>,
+    /// What redo does again, the next act last.
+    pub redo: Vec<Remembered>,
+}
+
+/// An act of a history.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Remembered {
+    /// What it is called.
+    pub act: String,
+    /// The document that taking it back, or doing it again, leads to.
+    pub document: String,
 }
 
 /// One step of relaxation.

@@ -12,6 +12,7 @@ mod layer;
 pub mod limit;
 mod look;
 mod loss;
+pub mod memory;
 pub mod number;
 mod painter;
 mod pick;

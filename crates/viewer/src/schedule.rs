@@ -3,7 +3,7 @@
 //! A drag is state: its newest target rides on the next step, so a slow worker skips targets instead of
 //! falling behind. Nothing here knows a worker or a clock; times are milliseconds that the page gives.
 
-use ductile_spec::{Edit, GrabTarget, Reply, Request, Step};
+use ductile_spec::{Edit, GrabTarget, Reply, Request, Resume, Step};
 use glam::DVec3;
 use std::collections::VecDeque;
 
@@ -139,9 +139,11 @@ impl Schedule {
         let (request, since) = self.in_flight.take()?;
         self.settled = reply.frame.settled;
         Some(match request {
-            Request::OpenText { .. } | Request::OpenLink { .. } | Request::OpenExample(_) | Request::New => {
-                Answered::Opening
-            }
+            Request::OpenText { .. }
+            | Request::OpenLink { .. }
+            | Request::OpenExample(_)
+            | Request::New
+            | Request::Resume(_) => Answered::Opening,
             Request::Edit(_) | Request::Undo | Request::Redo => Answered::Act,
             Request::Grab(_) => Answered::Grab,
             Request::Drop | Request::Cancel => Answered::Release,
@@ -167,9 +169,9 @@ impl Schedule {
         }
     }
 
-    /// The worker died. What was under way is given up and the document opened anew before all that
-    /// waits. Tells the act that is lost, if there is one.
-    pub fn worker_died(&mut self, document: Option<String>) -> Option<String> {
+    /// The worker died. What was under way is given up and the work resumed before all that waits. Tells the act
+    /// that is lost, if there is one.
+    pub fn worker_died(&mut self, resume: Option<Resume>) -> Option<String> {
         let dragged = self.holds.then(|| "the drag".to_owned());
         let lost = match self.in_flight.take() {
             Some((Request::Edit(edit), _)) => Some(edit.label().to_owned()),
@@ -184,10 +186,10 @@ impl Schedule {
             _ => dragged,
         };
         self.forget_drag();
-        // Undo and redo belong to a history that is gone, a grab without its steps to nothing.
+        // Undo and redo were meant for what is lost, a grab without its steps for nothing.
         self.queue.retain(|r| matches!(r, Request::Edit(_) | Request::Export(_)) || is_opening(r));
-        if let Some(text) = document {
-            self.queue.push_front(Request::OpenText { text });
+        if let Some(resume) = resume {
+            self.queue.push_front(Request::Resume(resume));
         }
         self.settled = true;
         self.iterations = FIRST_ITERATIONS;
@@ -222,7 +224,11 @@ impl Schedule {
 fn is_opening(request: &Request) -> bool {
     matches!(
         request,
-        Request::OpenText { .. } | Request::OpenLink { .. } | Request::OpenExample(_) | Request::New
+        Request::OpenText { .. }
+            | Request::OpenLink { .. }
+            | Request::OpenExample(_)
+            | Request::New
+            | Request::Resume(_)
     )
 }
 
@@ -232,6 +238,7 @@ pub fn label(request: &Request) -> &'static str {
     match request {
         Request::OpenText { .. } | Request::OpenLink { .. } | Request::OpenExample(_) => "Open",
         Request::New => "New",
+        Request::Resume(_) => "Resume",
         Request::Edit(edit) => Edit::label(edit),
         Request::Grab(_) | Request::Drop | Request::Cancel | Request::Step(_) => "Drag",
         Request::Undo => "Undo",
@@ -373,13 +380,14 @@ mod tests {
 
     #[test]
     fn a_dead_worker_costs_the_act_under_way_and_nothing_else() {
+        let resume = Resume { document: "{}".into(), ..Resume::default() };
         let mut schedule = Schedule::default();
         schedule.push(Request::Edit(Edit::Release { point: PointId(1) }));
         schedule.push(Request::Edit(Edit::Release { point: PointId(2) }));
         schedule.push(Request::Undo);
         schedule.next(0.0);
-        assert_eq!(schedule.worker_died(Some("{}".into())), Some("Release".into()));
-        assert_eq!(schedule.next(0.0), Some(Request::OpenText { text: "{}".into() }));
+        assert_eq!(schedule.worker_died(Some(resume.clone())), Some("Release".into()));
+        assert_eq!(schedule.next(0.0), Some(Request::Resume(resume)));
         schedule.answered(&reply(true, 0.0), 0.0);
         assert_eq!(schedule.next(0.0), Some(Request::Edit(Edit::Release { point: PointId(2) })));
         schedule.answered(&reply(true, 0.0), 0.0);

@@ -59,8 +59,10 @@ export async function picture(page) {
   return part;
 }
 
-/** Waits for two display ticks: what was due has been drawn. */
-export function drawn(page) {
+/** Waits for the first picture, then for two display ticks: what was due has been drawn. */
+export async function drawn(page) {
+  // The model may be at rest long before there is a graphics device.
+  await untilInspect(page, ({ gpu, pictures }) => gpu === "ready" && pictures > 0);
   const ticks = () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(true))));
   return page.evaluate(ticks);
 }

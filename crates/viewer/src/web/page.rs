@@ -10,6 +10,7 @@ use super::settings::Settings;
 use super::stage::Stage;
 use super::{canvas, commands, fields, files, inspect, keyboard, link, opening, stage};
 use crate::limit::Limit;
+use crate::memory::Memory;
 use crate::schedule::Schedule;
 use crate::tool::{Selection, Toolbox};
 use crate::{Camera, Scene};
@@ -50,6 +51,8 @@ pub(crate) struct Page {
     pub(crate) committed: Option<Committed>,
     /// The same, read; what the link and the file are made of.
     pub(crate) document: Document,
+    /// The acts up to there, for a worker that must begin anew.
+    pub(crate) memory: Memory,
     /// The text that Reset goes back to.
     pub(crate) opened: Option<String>,
     /// How many documents were opened by the designer, not after a crash.
@@ -106,6 +109,7 @@ pub(crate) fn start() {
         notices: Notices::default(),
         panel: Panel::new(),
         committed: None,
+        memory: Memory::default(),
         document: Document::default(),
         opened: None,
         openings: 0,

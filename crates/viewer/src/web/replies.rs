@@ -18,13 +18,13 @@ impl Page {
         }
     }
 
-    /// The worker is gone: a new one opens the last committed document.
+    /// The worker is gone: a new one goes on from the last committed document.
     pub(crate) fn worker_died(&mut self, why: &str) {
         self.port.stop();
-        let document = self.committed.as_ref().map(|committed| committed.document.clone());
-        self.reopening = document.is_some();
-        let nothing_yet = document.is_none();
-        let lost = self.schedule.worker_died(document);
+        let resume = self.memory.resume();
+        self.reopening = resume.is_some();
+        let nothing_yet = resume.is_none();
+        let lost = self.schedule.worker_died(resume);
         self.hand.forget();
         self.describing = false;
         if nothing_yet && self.schedule.is_at_rest() {
@@ -37,8 +37,7 @@ impl Page {
                 Some(act) => format!("Only {act} was lost"),
                 None => "Nothing was lost".to_owned(),
             };
-            let text =
-                format!("The solver stopped and was started again. {lost}; undo begins anew from here.");
+            let text = format!("The solver stopped and was started again. {lost}.");
             self.notices.banner_for("worker", &text, 20_000);
             self.start_worker();
         } else {
@@ -167,10 +166,14 @@ impl Page {
         let act = committed.act.clone();
         let text = committed.document.clone();
         let has_undo = committed.undo.is_some();
+        let is_back = *answered == Answered::Opening && std::mem::take(&mut self.reopening);
+        if !is_back {
+            // Brought back, it is as it was, and so is what is remembered of it.
+            self.memory.committed(&committed);
+        }
         self.committed = Some(committed);
         self.keep(&text);
-        if *answered == Answered::Opening && self.reopening {
-            self.reopening = false;
+        if is_back {
             return;
         }
         if *answered == Answered::Opening {
