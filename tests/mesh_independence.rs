@@ -20,7 +20,7 @@ fn solve(example: Example, spacing: f64) -> Solved {
     let mut bench = Bench::new();
     bench.accept(Request::OpenText { text: to_text(&document) });
     let energy = bench.rest(600);
-    let shape = bench.modeler.model().surfaces.values().next().unwrap();
+    let shape = bench.modeler.model().surfaces.values().next().expect("the document has a surface");
     let mut index = vec![usize::MAX; shape.mesh.vertex_slots()];
     let mut positions = Vec::new();
     for v in shape.mesh.vertices() {

@@ -44,7 +44,6 @@ pub(crate) trait Real:
     fn all(mask: Self::Mask) -> bool;
 }
 
-#[expect(clippy::use_self, reason = "the trait speaks of f64 as the type of a lane")]
 impl Real for f64 {
     const LANES: usize = 1;
     type Mask = bool;
