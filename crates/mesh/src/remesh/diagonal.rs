@@ -18,22 +18,23 @@ use crate::{EdgeId, Mesh, VertexId};
 pub(super) struct Diagonal {
     pub(super) ends: [VertexId; 2],
     pub(super) opposite: [VertexId; 2],
-    /// Vertices beyond the sides bc, ca, ad, db; `None` on the boundary.
-    beyond: [Option<VertexId>; 4],
+    edge: EdgeId,
 }
 
 impl Diagonal {
     pub(super) fn of(mesh: &Mesh, e: EdgeId) -> Option<Self> {
         let h = mesh.halfedge_of(e);
         let t = mesh.twin(h)?;
-        let beyond = |h| mesh.twin(h).map(|t| mesh.apex(t));
+        Some(Self { ends: [mesh.origin(h), mesh.target(h)], opposite: [mesh.apex(h), mesh.apex(t)], edge: e })
+    }
+
+    /// Vertices beyond the sides bc, ca, ad, db; `None` on the boundary.
+    fn beyond(&self, mesh: &Mesh) -> [Option<VertexId>; 4] {
+        let h = mesh.halfedge_of(self.edge);
+        let Some(t) = mesh.twin(h) else { return [None; 4] };
         let (at_a, at_b) =
             if mesh.origin(t) == mesh.target(h) { (t.next(), t.prev()) } else { (t.prev(), t.next()) };
-        Some(Self {
-            ends: [mesh.origin(h), mesh.target(h)],
-            opposite: [mesh.apex(h), mesh.apex(t)],
-            beyond: [h.next(), h.prev(), at_a, at_b].map(beyond),
-        })
+        [h.next(), h.prev(), at_a, at_b].map(|h| mesh.twin(h).map(|t| mesh.apex(t)))
     }
 
     fn points(&self, positions: &[DVec3]) -> [DVec3; 4] {
@@ -45,6 +46,10 @@ impl Diagonal {
     /// would not.
     pub(super) fn gain(&self, positions: &[DVec3]) -> f64 {
         let [a, b, c, d] = self.points(positions);
+        // Two opposite angles of at most 90° each: the edge is Delaunay, and no other edge has a wider least angle.
+        if (a - c).dot(b - c) >= 0.0 && (a - d).dot(b - d) >= 0.0 {
+            return 0.0;
+        }
         let (cos_now, now) = sharpest(corners_at_diagonal(a, b, c, d));
         let (cos_flipped, flipped) = sharpest(corners_at_diagonal(c, d, a, b));
         if cos_flipped < cos_now {
@@ -69,7 +74,7 @@ impl Diagonal {
     /// Whether the surface is flat enough here for the flip to make sense: no dihedral angle of more than
     /// 90° across either diagonal, none made across the sides (or made worse), and both new triangles
     /// facing the side of the old ones.
-    pub(super) fn is_flat_enough(&self, positions: &[DVec3]) -> bool {
+    pub(super) fn is_flat_enough(&self, mesh: &Mesh, positions: &[DVec3]) -> bool {
         let [a, b, c, d] = self.points(positions);
         let normal = |p: DVec3, q: DVec3, r: DVec3| (q - p).cross(r - p).normalize_or_zero();
         let (old_c, old_d) = (normal(a, b, c), normal(b, a, d));
@@ -80,7 +85,7 @@ impl Diagonal {
             return false;
         }
         let sides = [(b, c, old_c, new_b), (c, a, old_c, new_a), (a, d, old_d, new_a), (d, b, old_d, new_b)];
-        sides.into_iter().zip(self.beyond).all(|((p, q, before, after), beyond)| {
+        sides.into_iter().zip(self.beyond(mesh)).all(|((p, q, before, after), beyond)| {
             beyond.is_none_or(|v| {
                 let outside = normal(q, p, positions[v.index()]);
                 let bend = outside.dot(after);

@@ -83,7 +83,7 @@ fn wanted(mesh: &Mesh, positions: &[DVec3], e: EdgeId, limits: &Limits<'_>) -> O
     }
     let diagonal = Diagonal::of(mesh, e)?;
     let is_welcome = diagonal.gain(positions) > LEAST_GAIN
-        && diagonal.is_flat_enough(positions)
+        && diagonal.is_flat_enough(mesh, positions)
         && can_spare_neighbours(mesh, positions, &diagonal)
         && diagonal.opposite.iter().all(|&v| mesh.valence(v) < limits.most_neighbours)
         && mesh.can_flip(e).is_ok();

@@ -76,7 +76,7 @@ fn best_flip(
             && sizing.ratio_between(positions, c, d) <= LONG
             && diagonal.ends.iter().all(can_spare)
             && diagonal.opposite.iter().all(|&w| mesh.valence(w) < limits.most_neighbours)
-            && diagonal.is_flat_enough(positions)
+            && diagonal.is_flat_enough(mesh, positions)
         {
             widest = corner;
             best = Some((e, diagonal));

@@ -34,7 +34,7 @@ fn least_gain_possible(mesh: &Mesh, positions: &[DVec3]) -> bool {
         let d = diagonal::Diagonal::of(mesh, e).unwrap();
         let degrees =
             d.ends.iter().all(|&v| mesh.valence(v) > if mesh.is_boundary_vertex(v) { 3 } else { 5 });
-        !degrees || !d.is_flat_enough(positions) || d.gain(positions) <= 0.05
+        !degrees || !d.is_flat_enough(mesh, positions) || d.gain(positions) <= 0.05
     })
 }
 
