@@ -9,18 +9,19 @@ use ductile_spec::{Example, GrabTarget, PointId, Request};
 use glam::{DQuat, DVec3};
 use std::f64::consts::TAU;
 
-/// Smallest angle of a shape's triangles in degrees, and the longest edge in units of the shortest.
+/// Of the smallest angles of all triangles, in degrees, the least and the first percentile.
 fn quality(shape: &SurfaceShape) -> (f64, f64) {
-    let (mut angle, mut short, mut long) = (180.0_f64, f64::INFINITY, 0.0_f64);
+    let mut angles = Vec::new();
     for face in shape.mesh.faces() {
         let corners = shape.mesh.face_vertices(face).map(|v| shape.positions[v.index()]);
-        for k in 0..3 {
+        let angle = |k: usize| {
             let (one, other) = (corners[(k + 1) % 3] - corners[k], corners[(k + 2) % 3] - corners[k]);
-            angle = angle.min(one.angle_between(other).to_degrees());
-            (short, long) = (short.min(one.length()), long.max(one.length()));
-        }
+            one.angle_between(other).to_degrees()
+        };
+        angles.push((0..3).map(angle).fold(180.0, f64::min));
     }
-    (angle, long / short)
+    angles.sort_by(f64::total_cmp);
+    (angles[0], angles[angles.len() / 100])
 }
 
 fn surface(bench: &Bench) -> &SurfaceShape {
@@ -40,8 +41,12 @@ fn is_as_before(bench: &mut Bench, energy: f64, nodes: usize) {
     let count = surface(bench).mesh.vertices().count();
     // Edges are split from 1.35 spacings on and collapsed below 0.72: between the two the mesh may have any density.
     assert!((count as f64 / nodes as f64 - 1.0).abs() < 0.25, "{nodes} nodes became {count}");
-    let (angle, ratio) = quality(surface(bench));
-    assert!(angle > 25.0 && ratio < 3.5, "smallest angle {angle:.1} degrees, edges 1 : {ratio:.2}");
+    // Corners sharper than 15 degrees are mended, so none is left; ninety-nine in a hundred are far wider.
+    let (least, percentile) = quality(surface(bench));
+    println!(
+        "{count} nodes, energy {energy} -> {after}, least angle {least:.1}, first percentile {percentile:.1}"
+    );
+    assert!(least > 15.0 && percentile > 25.0, "least angle {least:.1}, first percentile {percentile:.1}");
 }
 
 #[test]
@@ -58,10 +63,11 @@ fn a_point_goes_a_hundred_times_round_the_disc() {
             bench.step(Some(home + aside));
         }
     }
+    // A little beside: a drag that ends where it began is no drag, and puts the old mesh back.
     for _ in 0..20 {
-        bench.step(Some(home));
+        bench.step(Some(home + DVec3::X * 0.002));
     }
-    bench.accept(Request::Drop);
+    assert!(bench.accept(Request::Drop).committed.is_some());
     is_as_before(&mut bench, energy, nodes);
 }
 
