@@ -3,6 +3,9 @@
 //! Thesis figures 2.9, 5.6 and 8.2: there the meshes decay. The energy of a surface depends on its mesh by a fraction of a percent at
 //! these sizes, and the mesh after a long way round is another one: that is the tolerance here.
 
+#![allow(clippy::unwrap_used, reason = "a failing test should stop where it fails")]
+#![allow(clippy::print_stdout, reason = "the figures are worth seeing with --nocapture")]
+
 use acceptance::Bench;
 use ductile_modeler::SurfaceShape;
 use ductile_spec::{Example, GrabTarget, PointId, Request};

@@ -3,6 +3,9 @@
 //! One document is solved at several densities. What the coarser meshes say is held against a fine one: every vertex
 //! by its distance to the fine surface. The distance must fall with the spacing, and be small beside the model.
 
+#![allow(clippy::unwrap_used, reason = "a failing test should stop where it fails")]
+#![allow(clippy::print_stdout, reason = "the figures are worth seeing with --nocapture")]
+
 use acceptance::Bench;
 use ductile_spec::{Example, Request, to_text};
 use glam::DVec3;
