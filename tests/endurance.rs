@@ -118,6 +118,10 @@ impl Stream {
         x ^ (x >> 31)
     }
 
+    fn below(&mut self, count: usize) -> usize {
+        usize::try_from(self.next() >> 33).expect("31 bits fit") % count
+    }
+
     fn unit(&mut self) -> f64 {
         (self.next() >> 11) as f64 / (1_u64 << 53) as f64
     }
@@ -125,11 +129,11 @@ impl Stream {
     /// Somewhere a hand has no business to be.
     fn malice(&mut self, others: &[DVec3]) -> DVec3 {
         let direction = DVec3::new(self.unit() - 0.5, self.unit() - 0.5, self.unit() - 0.5);
-        match self.next() % 7 {
+        match self.below(7) {
             0 => direction * 1e9,
             1 => DVec3::new(f64::NAN, 0.0, 0.0),
             2 => DVec3::splat(f64::INFINITY) * direction,
-            3 => others[(self.next() % others.len() as u64) as usize],
+            3 => others[self.below(others.len())],
             4 => direction * 1e-300,
             5 => direction * 1e300,
             _ => direction * 4.0,
@@ -151,7 +155,7 @@ fn ten_thousand_malicious_drags_break_nothing() {
     let others: Vec<DVec3> = points.iter().map(|(_, at)| *at).collect();
     let mut stream = Stream(1);
     for drag in 0..drags {
-        let (point, home) = points[(stream.next() % points.len() as u64) as usize];
+        let (point, home) = points[stream.below(points.len())];
         if drag % 5 == 0 {
             bench.accept(Request::Grab(GrabTarget::Point(point)));
         }
@@ -160,7 +164,7 @@ fn ten_thousand_malicious_drags_break_nothing() {
         assert!(bench.modeler.floats().iter().all(|value| value.is_finite()), "drag {drag} to {target}");
         if drag % 5 == 4 {
             // Half of them are let go where they are and undone, half are called off.
-            let end = if stream.next() % 2 == 0 { Request::Cancel } else { Request::Drop };
+            let end = if stream.below(2) == 0 { Request::Cancel } else { Request::Drop };
             let reply = bench.accept(end);
             if reply.committed.is_some() {
                 bench.accept(Request::Undo);
