@@ -74,6 +74,8 @@ impl Memory {
 #[cfg(test)]
 mod tests {
     use super::*;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
 
     fn commit(memory: &mut Memory, act: &str, document: &str, undo: Option<&str>, redo: Option<&str>) {
         memory.committed(&Committed {
