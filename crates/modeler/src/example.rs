@@ -83,7 +83,7 @@ fn add_point(document: &mut Document, at: DVec3) -> PointId {
 
 fn add_curve(document: &mut Document, through: &[PointId]) -> CurveId {
     let id = document.next_curve();
-    document.curves.insert(id, Curve { through: through.to_vec(), closed: true });
+    document.curves.insert(id, Curve::new(through.to_vec(), true));
     id
 }
 
@@ -103,7 +103,7 @@ fn add_surface(
     let curves =
         curves.iter().map(|(id, along)| Embedding { curve: CurveId(*id), along: along.clone() }).collect();
     let skeleton = Skeleton { vertices, triangles, curves };
-    document.surfaces.insert(SurfaceId(1), Surface { skeleton, spacing: None });
+    document.surfaces.insert(SurfaceId(1), Surface::new(skeleton));
 }
 
 #[cfg(test)]

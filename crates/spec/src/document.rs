@@ -20,7 +20,7 @@ pub const MAX_COORDINATE: f64 = 1e6;
 pub struct Document {
     /// What the designer calls it.
     pub name: String,
-    /// What the surfaces minimise.
+    /// What its surfaces and curves minimise where they do not say otherwise.
     pub objective: Objective,
     /// Target edge length of the approximating mesh, in model units; `None` leaves it to the modeler.
     pub spacing: Option<f64>,
@@ -36,9 +36,31 @@ pub struct Document {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Objective {
-    /// The integral of the sum of squared principal curvatures, thesis eq. (4.2).
+    /// The integral of the sum of squared principal curvatures, thesis eq. (4.2); of a curve, of its squared curvature.
     #[default]
     ThinPlate,
+    /// The variation of curvature (third order): spheres, cylinders, circles and lines are left as they are.
+    Fair,
+    /// Curvature spread evenly, without an energy: the mean curvature is harmonic, a curve's curvature linear.
+    Neutral,
+    /// The area, or the length: a soap film, a taut string.
+    Membrane,
+}
+
+impl Objective {
+    /// All of them, in the order of a menu.
+    pub const ALL: [Self; 4] = [Self::ThinPlate, Self::Fair, Self::Neutral, Self::Membrane];
+
+    /// Its name on the page.
+    #[must_use]
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::ThinPlate => "Thin plate",
+            Self::Fair => "Fair",
+            Self::Neutral => "Neutral",
+            Self::Membrane => "Membrane",
+        }
+    }
 }
 
 /// A fair curve through control points, in order.
@@ -50,6 +72,9 @@ pub struct Curve {
     /// Whether it returns from the last point to the first.
     #[serde(default, skip_serializing_if = "core::ops::Not::not")]
     pub closed: bool,
+    /// What it minimises where that differs from the document's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub objective: Option<Objective>,
 }
 
 /// A fair surface under its controls.
@@ -61,6 +86,9 @@ pub struct Surface {
     /// Target edge length where it differs from the document's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spacing: Option<f64>,
+    /// What it minimises where that differs from the document's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub objective: Option<Objective>,
 }
 
 /// A minimal triangulation of a surface: the least that still has its topology and all of its controls.
@@ -96,7 +124,35 @@ pub struct Embedding {
     pub along: Vec<u32>,
 }
 
+impl Curve {
+    /// A curve through these points, without choices of its own.
+    #[must_use]
+    pub fn new(through: Vec<PointId>, closed: bool) -> Self {
+        Self { through, closed, objective: None }
+    }
+}
+
+impl Surface {
+    /// A surface with this skeleton, without choices of its own.
+    #[must_use]
+    pub fn new(skeleton: Skeleton) -> Self {
+        Self { skeleton, spacing: None, objective: None }
+    }
+}
+
 impl Document {
+    /// What a curve minimises.
+    #[must_use]
+    pub fn objective_of_curve(&self, curve: CurveId) -> Objective {
+        self.curves.get(&curve).and_then(|curve| curve.objective).unwrap_or(self.objective)
+    }
+
+    /// What a surface minimises.
+    #[must_use]
+    pub fn objective_of_surface(&self, surface: SurfaceId) -> Objective {
+        self.surfaces.get(&surface).and_then(|surface| surface.objective).unwrap_or(self.objective)
+    }
+
     /// The smallest identity that no point has yet and that lies above all those in use.
     #[must_use]
     pub fn next_point(&self) -> PointId {

@@ -1,6 +1,7 @@
 //! The acts of a designer. One word = one variant = one file in the modeler's `operation/` = one word of
 //! the command line = one label on the page.
 
+use crate::document::Objective;
 use crate::id::{CurveId, PointId, SurfaceId};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -78,6 +79,13 @@ pub enum Edit {
         /// In model units.
         spacing: Option<f64>,
     },
+    /// Chooses what shapes minimise.
+    Objective {
+        /// Whose choice it is.
+        of: ObjectiveOf,
+        /// The choice; `None` follows the document (and for the document means the default).
+        objective: Option<Objective>,
+    },
     /// Renames the document.
     Rename {
         /// The new name, at most 200 characters.
@@ -99,9 +107,21 @@ impl Edit {
             Self::Release { .. } => "Release",
             Self::DeletePoint { .. } | Self::DeleteCurve { .. } | Self::DeleteSurface { .. } => "Delete",
             Self::Spacing { .. } => "Resolution",
+            Self::Objective { .. } => "Objective",
             Self::Rename { .. } => "Rename",
         }
     }
+}
+
+/// What an objective is chosen for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum ObjectiveOf {
+    /// Everything that has no choice of its own.
+    Document,
+    /// A curve.
+    Curve(CurveId),
+    /// A surface.
+    Surface(SurfaceId),
 }
 
 /// What a new curve passes through.

@@ -18,7 +18,7 @@ mod validate;
 pub use document::{
     Curve, Document, Embedding, MAX_COORDINATE, Objective, Skeleton, SkeletonVertex, Surface,
 };
-pub use edit::{Edit, GrabTarget, Through};
+pub use edit::{Edit, GrabTarget, ObjectiveOf, Through};
 pub use example::Example;
 pub use frame::{
     CurveRole, CurveSpan, Figures, FrameHeader, PointEntry, PointRole, Structure, SurfaceSpan,

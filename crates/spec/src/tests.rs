@@ -8,19 +8,26 @@ use proptest::test_runner::RngSeed;
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
 fn sample() -> Document {
-    let mut document = Document { name: "A “name”\n".into(), spacing: Some(0.1), ..Document::default() };
+    let mut document = Document {
+        name: "A “name”\n".into(),
+        spacing: Some(0.1),
+        objective: Objective::Neutral,
+        ..Document::default()
+    };
     for (id, at) in [(1, dvec3(0.1 + 0.2, -1e-7, 1.0 / 3.0)), (2, DVec3::X), (3, DVec3::Y), (7, DVec3::Z)] {
         document.points.insert(PointId(id), at);
     }
     let through = vec![PointId(1), PointId(2), PointId(3)];
-    document.curves.insert(CurveId(4), Curve { through, closed: true });
+    document
+        .curves
+        .insert(CurveId(4), Curve { objective: Some(Objective::Fair), ..Curve::new(through, true) });
     let vertices = [1, 2, 3, 7].map(|id| SkeletonVertex::Control(PointId(id))).into_iter();
     let skeleton = Skeleton {
         vertices: vertices.chain([SkeletonVertex::Free(dvec3(0.5, 0.25, 2.0))]).collect(),
         triangles: vec![[0, 1, 3], [1, 2, 3], [2, 0, 4], [0, 3, 4], [3, 2, 4]],
         curves: vec![Embedding { curve: CurveId(4), along: vec![0, 1, 2] }],
     };
-    document.surfaces.insert(SurfaceId(2), Surface { skeleton, spacing: Some(0.05) });
+    document.surfaces.insert(SurfaceId(2), Surface { spacing: Some(0.05), ..Surface::new(skeleton) });
     document
 }
 

@@ -17,7 +17,7 @@ pub(crate) fn curve(model: &mut Model, through: &[Through], closed: bool) -> Res
     let id = model.document.next_curve();
     let spacing = default_spacing(&model.document);
     let document = model.document_mut();
-    document.curves.insert(id, Curve { through: points, closed });
+    document.curves.insert(id, Curve::new(points, closed));
     // A document states its spacing from the first curve on, so that everybody who opens it gets the same.
     document.spacing.get_or_insert(spacing);
     model.document.validate()?;

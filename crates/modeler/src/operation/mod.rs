@@ -4,6 +4,7 @@
 mod curve;
 mod delete;
 mod insert;
+mod objective;
 mod pin;
 mod point;
 mod release;
@@ -43,6 +44,7 @@ pub(crate) fn apply(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result
         Edit::DeleteCurve { curve } => delete::curve(model, *curve),
         Edit::DeleteSurface { surface } => delete::surface(model, *surface),
         Edit::Spacing { spacing } => respace(model, *spacing),
+        Edit::Objective { of, objective } => objective::choose(model, *of, *objective),
         Edit::Rename { name } => {
             model.document_mut().name.clone_from(name);
             Ok(model.document.validate()?)

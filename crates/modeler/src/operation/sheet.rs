@@ -16,7 +16,7 @@ pub(crate) fn sheet(model: &mut Model, boundary: CurveId) -> Result<(), ModelErr
         return Err(ModelError::AlreadySkinned { curve: boundary, surface: *id });
     }
     let skeleton = sheet_skeleton(boundary, &points);
-    add(model, Surface { skeleton, spacing: None })
+    add(model, Surface::new(skeleton))
 }
 
 /// Adds a surface to the document and builds it.

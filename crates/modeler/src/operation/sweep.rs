@@ -16,5 +16,5 @@ pub(crate) fn sweep(model: &mut Model, from: CurveId, to: CurveId) -> Result<(),
         return Err(ModelError::CurvesTouch(from, to, *shared));
     }
     let skeleton = sweep_skeleton((from, &low), (to, &high));
-    add(model, Surface { skeleton, spacing: None })
+    add(model, Surface::new(skeleton))
 }
