@@ -93,12 +93,43 @@ fn a_wild_drag_returns_to_the_undisturbed_shape() {
             bench.step(Some(to));
         }
     }
-    for _ in 0..40 {
+    for _ in 0..60 {
         bench.step(Some(home));
     }
-    bench.accept(Request::Drop);
+    let held = bench.step(Some(home)).frame.figures.energy;
+    assert!((held / undisturbed - 1.0).abs() < 1e-6, "{undisturbed} before, {held} with the hand at home");
+    // Where nothing was moved in the end, there is no act.
+    assert_eq!(bench.accept(Request::Drop).committed, None);
     let energy = bench.rest(600);
-    assert!((energy / undisturbed - 1.0).abs() < 0.02, "{undisturbed} before, {energy} after");
+    assert!((energy / undisturbed - 1.0).abs() < 1e-6, "{undisturbed} before, {energy} after");
+}
+
+#[test]
+fn a_document_that_could_not_be_opened_again_is_never_committed() {
+    let mut bench = Bench::with(Example::RaisedDisc);
+    let document = bench.document();
+    let [here, there] = [PointId(1), PointId(2)];
+    // Two neighbours on a curve at one place: the stretch between them has no length.
+    let to = document.points[&there];
+    let reply = bench.send(Request::Edit(ductile_spec::Edit::Move { point: here, to }));
+    assert!(reply.refused.is_some_and(|refusal| refusal.reason.contains("no extent")));
+    bench.accept(Request::Grab(GrabTarget::Point(here)));
+    for _ in 0..5 {
+        bench.step(Some(to));
+    }
+    // Who asks in the middle is told the document before: the drag is no act yet.
+    let described = bench.accept(Request::Describe).committed.unwrap();
+    assert_eq!(ductile_spec::from_text(&described.document).unwrap(), document);
+    assert!(bench.send(Request::Drop).refused.is_some_and(|refusal| refusal.reason.contains("no extent")));
+    bench.accept(Request::Describe);
+    assert_eq!(bench.document(), document);
+    // So far that the surface would need more nodes than there may be.
+    bench.edit(ductile_spec::Edit::Spacing { spacing: Some(0.015) });
+    let document = bench.document();
+    let reply = bench.send(Request::Edit(ductile_spec::Edit::Move { point: there, to: DVec3::splat(9.0) }));
+    assert!(reply.refused.is_some_and(|refusal| refusal.reason.contains("nodes")));
+    bench.accept(Request::Describe);
+    assert_eq!(bench.document(), document);
 }
 
 #[test]

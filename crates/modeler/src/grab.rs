@@ -17,7 +17,10 @@ const REACH: f64 = 5.0;
 /// within reach costs as much, only crumpled ones do.
 const WRECK_FACTOR: f64 = 3.0;
 const WRECK_RISE: f64 = 60.0;
-/// Steps between two returns to the shape at the beginning of the drag.
+/// A shape whose point came home is not the one of before if its energy differs by more than this part: it is caught in
+/// a fold, or only its mesh has become another one.
+const LOST: f64 = 1e-6;
+/// Steps that a shape at home has to find back by itself, and steps between two returns to the shape at the beginning of the drag.
 const PATIENCE: u32 = 30;
 
 /// A drag in progress.
@@ -35,6 +38,8 @@ pub(crate) struct Grab {
     home: Model,
     energy_before: f64,
     steps_since_return: u32,
+    /// Steps since the hand last moved.
+    still: u32,
     centre: DVec3,
     reach: f64,
 }
@@ -65,6 +70,7 @@ impl Grab {
             home,
             energy_before: relaxer.energy(),
             steps_since_return,
+            still: 0,
             centre,
             reach,
         })
@@ -72,17 +78,30 @@ impl Grab {
 
     /// A hand that shakes a surface hard enough crumples it, and a crumpled surface may stay so: its energy has other
     /// valleys. Then the shapes go back to what they were when the drag began, and are carried straight
-    /// to where the hand is now. Returns whether that was needed.
+    /// to where the hand is now. The same when the hand has brought the point home and waits there, and the shape has
+    /// not become what it was by itself. Returns whether that was needed.
     pub(crate) fn rescue(&mut self, model: &mut Model, energy: f64, is_over: bool) -> bool {
         self.steps_since_return = self.steps_since_return.saturating_add(1);
+        self.still = self.still.saturating_add(1);
         let is_wreck = energy.is_nan() || energy > WRECK_FACTOR * self.energy_before + WRECK_RISE;
-        if !is_wreck || (self.steps_since_return < PATIENCE && !is_over) {
+        // Once for each time that the hand comes to rest: at the step that runs out of patience.
+        let is_lost = self.still == PATIENCE
+            && self.is_home(model)
+            && (energy - self.energy_before).abs() > LOST * self.energy_before;
+        let is_due = self.steps_since_return >= PATIENCE || is_over;
+        if !(is_lost || is_wreck && is_due) {
             return false;
         }
         self.steps_since_return = 0;
         model.curves.clone_from(&self.home.curves);
         model.surfaces.clone_from(&self.home.surfaces);
         true
+    }
+
+    /// Whether the point is back where the drag took hold of it.
+    fn is_home(&self, model: &Model) -> bool {
+        let at = |model: &Model| model.document.points.get(&self.point).copied();
+        self.has_moved && at(model) == at(&self.home)
     }
 
     /// Follows the hand. Returns how far the point was moved; nothing for what is not a position.
@@ -103,6 +122,9 @@ impl Grab {
         let moved = (to - *at).length();
         *at = to;
         self.has_moved |= moved > 0.0;
+        if moved > 0.0 {
+            self.still = 0;
+        }
         Some(moved)
     }
 
@@ -111,6 +133,7 @@ impl Grab {
         let at = model.point(self.point)?;
         let kept = kept_position(&self.before, at)?;
         model.document_mut().points.insert(self.point, kept);
+        model.check_extents()?;
         Ok(if self.is_new { "Control point" } else { "Move" })
     }
 }

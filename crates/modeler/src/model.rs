@@ -1,7 +1,7 @@
 //! The model: the document and the shapes that approximate it. Cloning shares what is unchanged.
 
 use crate::error::ModelError;
-use crate::rehydrate::{build_curve, build_surface};
+use crate::rehydrate::{build_curve, build_surface, check_extents};
 use crate::shape::{CurveShape, SurfaceShape, edit};
 use ductile_spec::{CurveId, Document, PointId, SurfaceId};
 use glam::DVec3;
@@ -40,6 +40,11 @@ impl Model {
             model.build_surface(id)?;
         }
         Ok(model)
+    }
+
+    /// Whether the document, whose controls were moved, could be opened again.
+    pub(crate) fn check_extents(&self) -> Result<(), ModelError> {
+        check_extents(&self.document, self.spacing())
     }
 
     /// Makes the document different; the shapes follow by their own calls.

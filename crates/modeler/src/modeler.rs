@@ -222,6 +222,11 @@ impl Modeler {
             return Ok(Outcome::default());
         }
         match grab.finish(&mut self.model) {
+            // Brought back to where it was: no act, and the shapes are those of before, not those of a long way round.
+            Ok(_) if self.model.document == grab.before.document => {
+                self.restore(grab.before);
+                Ok(Outcome::default())
+            }
             Ok(act) => {
                 if grab.rescue(&mut self.model, self.relaxer.energy(), true) {
                     self.relaxer.count_rescue();
@@ -302,10 +307,12 @@ impl Modeler {
     }
 
     fn committed(&self, act: String) -> Committed {
+        // Asked for in the middle of a drag, the document is the one before it: a drag is no act until it ends.
+        let document = &self.grab.as_ref().map_or(&self.model, |grab| &grab.before).document;
         Committed {
             act,
-            document: to_compact_text(&self.model.document),
-            name: self.model.document.name.clone(),
+            document: to_compact_text(document),
+            name: document.name.clone(),
             undo: self.history.next_undo().map(str::to_owned),
             redo: self.history.next_redo().map(str::to_owned),
         }

@@ -28,19 +28,12 @@ pub(crate) fn build_curve(
     spacing: f64,
     revision: u64,
 ) -> Result<CurveShape, ModelError> {
+    let (corners, stretches) = curve_corners(document, id, spacing)?;
     let curve = document.curves.get(&id).ok_or(ModelError::NoCurve(id))?;
-    let at = |point: &PointId| document.points.get(point).copied().ok_or(ModelError::NoPoint(*point));
-    let corners = curve.through.iter().map(at).collect::<Result<Vec<_>, _>>()?;
     let count = corners.len();
-    let stretches = if curve.closed { count } else { count - 1 };
-    let total: f64 = (0..stretches).map(|k| (corners[(k + 1) % count] - corners[k]).length()).sum();
-    check_budget(spacing, total / spacing, NODE_BUDGET / 4)?;
     let mut shape = CurveShape { nodes: Vec::new(), closed: curve.closed, controls: Vec::new(), revision };
     for k in 0..stretches {
         let (from, to) = (corners[k], corners[(k + 1) % count]);
-        if (to - from).length() <= LEAST_EXTENT * (1.0 + from.abs().max_element()) {
-            return Err(ModelError::NoExtent(id.to_string()));
-        }
         let edges = edges_of_stretch(document, id, k, (to - from).length() / spacing);
         shape.controls.push((count_u32(shape.nodes.len()), curve.through[k]));
         let tangent = |i: usize| tangent(&corners, i, curve.closed);
@@ -64,6 +57,55 @@ pub(crate) fn build_curve(
         }
     }
     Ok(shape)
+}
+
+/// The places that a curve runs through and the number of its stretches, if it can be sampled at a spacing.
+fn curve_corners(document: &Document, id: CurveId, spacing: f64) -> Result<(Vec<DVec3>, usize), ModelError> {
+    let curve = document.curves.get(&id).ok_or(ModelError::NoCurve(id))?;
+    let at = |point: &PointId| document.points.get(point).copied().ok_or(ModelError::NoPoint(*point));
+    let corners = curve.through.iter().map(at).collect::<Result<Vec<_>, _>>()?;
+    let count = corners.len();
+    let stretches = if curve.closed { count } else { count - 1 };
+    let length = |k: usize| (corners[(k + 1) % count] - corners[k]).length();
+    check_budget(spacing, (0..stretches).map(length).sum::<f64>() / spacing, NODE_BUDGET / 4)?;
+    let is_empty = |k: usize| length(k) <= LEAST_EXTENT * (1.0 + corners[k].abs().max_element());
+    if (0..stretches).any(is_empty) {
+        return Err(ModelError::NoExtent(id.to_string()));
+    }
+    Ok((corners, stretches))
+}
+
+/// Whether a document with sound topology could be opened: every stretch of a curve has an extent, every surface
+/// an area, and both are within the budget. An act that only moves controls must leave such a document behind:
+/// one that could not be opened again would be lost.
+pub(crate) fn check_extents(document: &Document, spacing: f64) -> Result<(), ModelError> {
+    for id in document.curves.keys() {
+        curve_corners(document, *id, spacing)?;
+    }
+    for (id, surface) in &document.surfaces {
+        let positions = surface.skeleton.vertices.iter().map(|vertex| match vertex {
+            SkeletonVertex::Free(at) => Ok(*at),
+            SkeletonVertex::Control(point) => {
+                document.points.get(point).copied().ok_or(ModelError::NoPoint(*point))
+            }
+        });
+        let positions = positions.collect::<Result<Vec<_>, _>>()?;
+        let corners = surface.skeleton.triangles.iter().map(|t| t.map(|v| positions[v as usize]));
+        let area: f64 = corners.map(|[a, b, c]| 0.5 * (b - a).cross(c - a).length()).sum();
+        check_area(*id, area, &positions, surface.spacing.unwrap_or(spacing))?;
+    }
+    Ok(())
+}
+
+/// Whether a surface has an area, and one that can be meshed at a spacing.
+fn check_area(id: SurfaceId, area: f64, positions: &[DVec3], spacing: f64) -> Result<(), ModelError> {
+    let largest = positions.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
+    let least = LEAST_EXTENT * (1.0 + largest);
+    if area.is_nan() || area <= least * least {
+        return Err(ModelError::NoExtent(id.to_string()));
+    }
+    // A regular mesh has 2 / sqrt(3) nodes for each square of its edge length.
+    check_budget(spacing, 1.155 * area / (spacing * spacing), NODE_BUDGET)
 }
 
 /// Edges of a stretch: as many as its length asks for, and no fewer than a skeleton's path has there.
@@ -130,13 +172,7 @@ pub(crate) fn build_surface(
             }
         });
     }
-    let area = measure::total_area(&mesh, &positions);
-    let largest = positions.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
-    if area.is_nan() || area <= (LEAST_EXTENT * (1.0 + largest)) * (LEAST_EXTENT * (1.0 + largest)) {
-        return Err(ModelError::NoExtent(id.to_string()));
-    }
-    // A regular mesh has 2 / sqrt(3) nodes for each square of its edge length.
-    check_budget(spacing, 1.155 * area / (spacing * spacing), NODE_BUDGET)?;
+    check_area(id, measure::total_area(&mesh, &positions), &positions, spacing)?;
     let bare = SurfaceShape { mesh, positions, embeddings: Vec::new(), pins: Vec::new(), spacing, revision };
     let mut shape = bare.clone();
     embed_curves(&mut shape, skeleton, curves, Laying::OnCurves)?;

@@ -31,6 +31,11 @@ const POSITION_DIGITS: i32 = 6;
 /// # Errors
 /// [`ModelError`] says why it cannot be done; the model may then be half changed and must be dropped.
 pub(crate) fn apply(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result<(), ModelError> {
+    act(model, relaxer, edit)?;
+    model.check_extents()
+}
+
+fn act(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result<(), ModelError> {
     match edit {
         Edit::Point { at } => point::place(model, *at).map(drop),
         Edit::Move { point, to } => point::shift(model, *point, *to),
