@@ -2,10 +2,11 @@
 
 use crate::error::ModelError;
 use crate::model::Model;
+use crate::region::{self, Choice};
 use crate::shape::{CurveShape, SurfaceShape};
 use ductile_mesh::VertexId;
 use ductile_solver::{CurveSettings, CurveSolver, Predicted, Rings, Settings, SolverError, SurfaceSolver};
-use ductile_spec::{CurveId, SurfaceId};
+use ductile_spec::{CurveId, Objective, SurfaceId};
 use glam::DVec3;
 use std::collections::BTreeMap;
 
@@ -66,6 +67,7 @@ pub struct BoundSurface {
     pub(crate) positions: Vec<DVec3>,
     vertices: Vec<VertexId>,
     compact: Vec<u32>,
+    choice: Choice,
 }
 
 impl BoundSurface {
@@ -86,7 +88,26 @@ impl BoundSurface {
         }
         let solver = SurfaceSolver::new(rings, fixed, Settings::default()).map_err(fail)?;
         let positions: Vec<DVec3> = vertices.iter().map(|v| shape.positions[v.index()]).collect();
-        Ok(Self { revision: shape.revision, solver, positions, vertices, compact })
+        Ok(Self { revision: shape.revision, solver, positions, vertices, compact, choice: Choice::default() })
+    }
+
+    /// Takes over what the document wants minimised; returns whether that is something else than before.
+    pub(crate) fn choose(&mut self, model: &Model, id: SurfaceId, shape: &SurfaceShape) -> bool {
+        let regions = model.document.surfaces.get(&id).map_or(&[][..], |surface| &surface.regions);
+        let of_surface = model.document.objective_of_surface(id);
+        // Only the membrane looks at the radius, which changes with every drag.
+        let is_film = |objective| objective == Objective::Membrane;
+        let has_film = is_film(of_surface) || regions.iter().any(|region| is_film(region.objective));
+        let radius = if has_film { model.document.extent().1 } else { 0.0 };
+        let choice = Choice { of_surface, regions: regions.to_vec(), radius };
+        if choice == self.choice {
+            return false;
+        }
+        let is_new = choice.of_surface != self.choice.of_surface || choice.regions != self.choice.regions;
+        // Made for the same triangles, so the lengths agree.
+        let is_taken = self.solver.set_objectives(region::objectives(shape, &choice)).is_ok();
+        self.choice = choice;
+        is_new && is_taken
     }
 
     /// The vertex of each compact node.

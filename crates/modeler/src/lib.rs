@@ -15,6 +15,7 @@ mod maintain;
 mod model;
 mod modeler;
 mod operation;
+mod region;
 mod rehydrate;
 mod relax;
 mod shadow;

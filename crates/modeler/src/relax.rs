@@ -121,11 +121,17 @@ impl Relaxer {
         for (id, shape) in &model.surfaces {
             if let Some(bound) = self.surfaces.get_mut(id) {
                 bound.read(shape);
+                if bound.choose(model, *id, shape) {
+                    self.states.remove(id);
+                }
                 continue;
             }
             self.states.remove(id);
             match BoundSurface::new(*id, shape) {
-                Ok(bound) => drop(self.surfaces.insert(*id, bound)),
+                Ok(mut bound) => {
+                    bound.choose(model, *id, shape);
+                    self.surfaces.insert(*id, bound);
+                }
                 Err(_) => self.rescues = self.rescues.saturating_add(1),
             }
         }

@@ -14,6 +14,7 @@
 use crate::batch::Batch;
 use crate::fits::{Fits, Row};
 use crate::lanes::Pair;
+use crate::objective::Goals;
 use crate::operator::{FIXED, SymmetricMatrix, Unknowns};
 use crate::rings::{MAX_RING, Rings};
 
@@ -34,7 +35,7 @@ type LocalRows = [[Pair; 3]; MAX_RING + 1];
 
 /// Gets the rows of a batch ready; `kept` is what the fits keep of it.
 #[inline(always)]
-fn local_rows(rings: &Rings, kept: &[Row], batch: &Batch, kind: Rows, rows: &mut LocalRows) {
+fn local_rows(rings: &Rings, goals: &Goals, kept: &[Row], batch: &Batch, kind: Rows, rows: &mut LocalRows) {
     let mut sum = [Pair::splat(0.0); 3];
     for (row, kept) in rows[1..].iter_mut().zip(&kept[1..]) {
         for c in 0..3 {
@@ -47,6 +48,18 @@ fn local_rows(rings: &Rings, kept: &[Row], batch: &Batch, kind: Rows, rows: &mut
             Rows::Offset => Pair::new(kept[0][c]) - sum[c],
             Rows::Field => -sum[c],
         };
+    }
+    if kind == Rows::Offset && !goals.is_plate() {
+        let prices = batch.nodes.map(|node| goals.price(node as usize));
+        // A neutral node does not bend under its own offset.
+        let squares = Pair::new(prices.map(|price| price.plate / price.rows().max(f64::MIN_POSITIVE)));
+        let roots = Pair::new(prices.map(|price| price.rows().sqrt()));
+        for c in 0..3 {
+            rows[0][c] = Pair::new(kept[0][c]) * squares - sum[c];
+        }
+        for value in rows[..=batch.degree].iter_mut().flatten() {
+            *value *= roots;
+        }
     }
     if kind == Rows::Offset && rings.is_mixed() {
         let senses = batch.nodes.map(|node| rings.senses(node as usize));
@@ -141,12 +154,19 @@ impl Assembly {
     }
 
     /// Computes the numbers of `A`; `mass` is added to the diagonal, per unknown.
-    pub(crate) fn assemble(&mut self, rings: &Rings, fits: &Fits, kind: Rows, mass: impl Fn(usize) -> f64) {
+    pub(crate) fn assemble(
+        &mut self,
+        rings: &Rings,
+        goals: &Goals,
+        fits: &Fits,
+        kind: Rows,
+        mass: impl Fn(usize) -> f64,
+    ) {
         let values = self.matrix.values_mut();
         values.fill(0.0);
         let mut rows = [[Pair::splat(0.0); 3]; MAX_RING + 1];
         for batch in rings.batches() {
-            local_rows(rings, &fits.rows[batch.rows()], batch, kind, &mut rows);
+            local_rows(rings, goals, &fits.rows[batch.rows()], batch, kind, &mut rows);
             let mut places = self.places[batch.pairs()].iter();
             for i in 0..=batch.degree {
                 let a = rows[i];
@@ -183,7 +203,8 @@ impl Assembly {
             if pairs.clone().flatten().all(|far| field[far] == 0.0) {
                 continue;
             }
-            local_rows(rings, &fits.rows[batch.rows()], batch, Rows::Field, &mut rows);
+            let kept = &fits.rows[batch.rows()];
+            local_rows(rings, &Goals::default(), kept, batch, Rows::Field, &mut rows);
             let mut bend = [Pair::splat(0.0); 3];
             for (row, far) in rows.iter().zip(pairs.clone()) {
                 let values = Pair::new(far.map(|far| field[far]));
@@ -244,7 +265,7 @@ mod tests {
         let mut a = vec![vec![0.0; unknowns.len()]; unknowns.len()];
         let mut rows = [[Pair::splat(0.0); 3]; MAX_RING + 1];
         for batch in rings.batches() {
-            local_rows(rings, &fits.rows[batch.rows()], batch, kind, &mut rows);
+            local_rows(rings, &Goals::default(), &fits.rows[batch.rows()], batch, kind, &mut rows);
             for lane in 0..batch.count {
                 let node = batch.nodes[lane] as usize;
                 for (i, x) in neighbourhood_of(rings, node).enumerate() {
@@ -266,12 +287,13 @@ mod tests {
     fn scattered_matrix_equals_sum_of_outer_products() {
         let mesh = workload::disc(4);
         let rings = Rings::from_triangles(mesh.positions.len(), &mesh.triangles).unwrap();
-        let mut fits = Fits::new(&rings);
+        let goals = Goals::default();
+        let mut fits = Fits::new(&rings, &goals);
         let lifted: Vec<_> = mesh.positions.iter().map(|p| *p + glam::DVec3::Z * (0.3 * p.x * p.x)).collect();
-        fits.refit(&rings, &lifted, Wanted::Gradient);
+        fits.refit(&rings, &goals, &lifted, Wanted::Gradient);
         let unknowns = Unknowns::new(mesh.fixed.iter().map(|fixed| !fixed));
         let mut assembly = Assembly::new(&rings, &unknowns);
-        assembly.assemble(&rings, &fits, Rows::Offset, |_| 0.0);
+        assembly.assemble(&rings, &goals, &fits, Rows::Offset, |_| 0.0);
         let expected = dense(&rings, &fits, &unknowns, Rows::Offset);
         let mut y = vec![0.0; unknowns.len()];
         for column in 0..unknowns.len() {
@@ -289,11 +311,12 @@ mod tests {
     fn field_rows_annihilate_constants() {
         let mesh = workload::disc(3);
         let rings = Rings::from_triangles(mesh.positions.len(), &mesh.triangles).unwrap();
-        let mut fits = Fits::new(&rings);
-        fits.refit(&rings, &mesh.positions, Wanted::Gradient);
+        let goals = Goals::default();
+        let mut fits = Fits::new(&rings, &goals);
+        fits.refit(&rings, &goals, &mesh.positions, Wanted::Gradient);
         let unknowns = Unknowns::new(mesh.fixed.iter().map(|fixed| !fixed));
         let mut assembly = Assembly::new(&rings, &unknowns);
-        assembly.assemble(&rings, &fits, Rows::Field, |_| 0.0);
+        assembly.assemble(&rings, &goals, &fits, Rows::Field, |_| 0.0);
         // A ones + pulled ones on the fixed nodes = 0
         let mut product = vec![0.0; unknowns.len()];
         assembly.matrix().multiply(&vec![1.0; unknowns.len()], &mut product);

@@ -4,6 +4,8 @@
 //! respect to the coefficients, the area and the mean chord. The gradient carries any adjoint back to the positions,
 //! so a new objective that looks at one node at a time needs nothing but these two.
 
+pub(crate) mod fair;
+pub(crate) mod membrane;
 pub(crate) mod thin_plate;
 
 use crate::lanes::Vector;

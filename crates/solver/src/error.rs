@@ -65,6 +65,8 @@ pub(crate) fn check_length(expected: usize, found: usize) -> Result<(), SolverEr
 pub struct Settings {
     /// Relative residual at which a step's conjugate gradients may stop early.
     pub step_tolerance: f64,
+    /// The same where curvature variation is minimised: its residuals span a wider range.
+    pub variation_tolerance: f64,
     /// Relative residual of the predictor's field.
     pub predictor_tolerance: f64,
     /// Iterations the predictor may spend on one field.
@@ -81,6 +83,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             step_tolerance: 3e-2,
+            variation_tolerance: 3e-3,
             predictor_tolerance: 1e-3,
             predictor_iterations: 60,
             strain_limit: 0.5,
@@ -93,7 +96,7 @@ impl Default for Settings {
 /// What one step may cost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Budget {
-    /// Iterations of the conjugate gradients.
+    /// Iterations of the conjugate gradients; twice as many where curvature variation is minimised.
     pub iterations: u32,
 }
 

@@ -124,6 +124,16 @@ impl Cholesky {
         self.give(z);
     }
 
+    /// Overwrites `x` with `A⁻¹ M x` for a diagonal `M` in the factor's order.
+    pub(crate) fn solve_after(&mut self, diagonal: &[f64], x: &mut [f64]) {
+        self.take(x);
+        for (value, factor) in self.ordered.iter_mut().zip(diagonal) {
+            *value *= factor;
+        }
+        self.blocks.solve(&mut self.ordered);
+        self.give(x);
+    }
+
     /// One number per unknown, brought into the factor's order.
     pub(crate) fn ordered(&self, x: &[f64]) -> Vec<f64> {
         self.order.iter().map(|&unknown| x[unknown as usize]).collect()

@@ -9,12 +9,17 @@ use glam::DVec3;
 
 use crate::barrier;
 use crate::batch::Batch;
-use crate::energy::thin_plate;
+use crate::energy::fair::Variation;
+use crate::energy::thin_plate::{self, Demand};
 use crate::fit::{self, CarefulFit, Curvature, Fit, Kind};
 use crate::gradient::Backward;
 use crate::lanes::{Pair, Real};
 use crate::neighbourhood::Ring;
-use crate::rings::Rings;
+use crate::objective::Goals;
+use crate::rings::{MAX_RING, Rings};
+
+/// One over the area of the unit sphere.
+pub(crate) const PER_SPHERE: f64 = 0.25 * std::f64::consts::FRAC_1_PI;
 
 /// What a sweep should make.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,7 +34,7 @@ pub(crate) enum Wanted {
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Node {
     pub(crate) normal: DVec3,
-    /// Thin plate plus barrier.
+    /// Thin plate, as far as it counts, plus barrier.
     pub(crate) energy: f64,
     /// One third of the parametric fan.
     pub(crate) area: f64,
@@ -66,21 +71,38 @@ pub(crate) struct Fits {
     pub(crate) gradient: Vec<DVec3>,
     /// Per batch the rows `√a Z` of its neighbours; in the centre's place `√a L²`, what an offset of the node adds.
     pub(crate) rows: Vec<Row>,
+    /// The variation of curvature, where it counts.
+    pub(crate) variation: Option<Variation>,
     has_gradient: bool,
 }
 
-/// Scratch of a sweep.
-#[derive(Debug, Default)]
-struct Sweep {
+/// Scratch of a sweep, and what it should make.
+#[derive(Debug)]
+struct Sweep<'a> {
+    goals: &'a Goals,
+    makes_gradient: bool,
     pair: Ring<Pair>,
     pair_back: Backward<Pair>,
     single: Ring<f64>,
     single_back: Backward<f64>,
 }
 
+impl<'a> Sweep<'a> {
+    fn new(goals: &'a Goals, makes_gradient: bool) -> Self {
+        Self {
+            goals,
+            makes_gradient,
+            pair: Ring::default(),
+            pair_back: Backward::default(),
+            single: Ring::default(),
+            single_back: Backward::default(),
+        }
+    }
+}
+
 impl Fits {
     /// Room for one connectivity.
-    pub(crate) fn new(rings: &Rings) -> Self {
+    pub(crate) fn new(rings: &Rings, goals: &Goals) -> Self {
         let rows = rings.batches().last().map_or(0, |batch| batch.rows().end);
         Self {
             nodes: vec![Node::default(); rings.len()],
@@ -89,12 +111,13 @@ impl Fits {
             energy: f64::NAN,
             gradient: vec![DVec3::ZERO; rings.len()],
             rows: vec![Row::default(); rows],
+            variation: goals.network.as_ref().map(|network| Variation::new(rings, network)),
             has_gradient: false,
         }
     }
 
     /// Fits every node, unless the last call did so at these positions.
-    pub(crate) fn refit(&mut self, rings: &Rings, positions: &[DVec3], wanted: Wanted) {
+    pub(crate) fn refit(&mut self, rings: &Rings, goals: &Goals, positions: &[DVec3], wanted: Wanted) {
         if self.positions == positions && (self.has_gradient || wanted == Wanted::Energy) {
             return;
         }
@@ -103,25 +126,55 @@ impl Fits {
         if self.has_gradient {
             self.gradient.fill(DVec3::ZERO);
         }
-        let mut sweep = Sweep::default();
+        let mut others = 0.0;
+        // What edges ask of the nodes at their ends is known when all nodes are fitted: that takes two sweeps.
+        if self.variation.is_some() {
+            self.sweep(rings, &mut Sweep::new(goals, false));
+        }
+        if let (Some(variation), Some(skin)) = (&mut self.variation, &goals.skin) {
+            variation.measure(&self.positions, &self.nodes, skin.area(&self.positions) * PER_SPHERE);
+            others += variation.energy * variation.scale;
+            if self.has_gradient {
+                variation.differentiate(&self.positions, &self.nodes, &mut self.gradient);
+                skin.add_gradient(&self.positions, variation.energy * PER_SPHERE, &mut self.gradient);
+            }
+        }
+        if self.variation.is_none() || self.has_gradient {
+            self.sweep(rings, &mut Sweep::new(goals, self.has_gradient));
+        }
+        if let Some(film) = &goals.film {
+            let price = 1.0 / (goals.radius * goals.radius);
+            others += film.area(&self.positions) * price;
+            if self.has_gradient {
+                film.add_gradient(&self.positions, price, &mut self.gradient);
+            }
+        }
+        self.energy = self.nodes.iter().map(|node| node.energy).sum::<f64>() + others;
+    }
+
+    /// Forgets the positions, so that the next call fits whatever they are.
+    pub(crate) fn forget(&mut self) {
+        self.positions.fill(DVec3::NAN);
+    }
+
+    fn sweep(&mut self, rings: &Rings, sweep: &mut Sweep<'_>) {
         for batch in rings.batches() {
             let is_done = match (batch.is_regular(), batch.is_boundary) {
                 (false, _) => false,
-                (true, false) => self.fit_pair::<5>(rings, batch, &mut sweep),
-                (true, true) => self.fit_pair::<3>(rings, batch, &mut sweep),
+                (true, false) => self.fit_pair::<5>(rings, batch, sweep),
+                (true, true) => self.fit_pair::<3>(rings, batch, sweep),
             };
             if !is_done {
                 for lane in 0..batch.count {
-                    self.fit_single(rings, batch, lane, &mut sweep);
+                    self.fit_single(rings, batch, lane, sweep);
                 }
             }
         }
-        self.energy = self.nodes.iter().map(|node| node.energy).sum();
     }
 
     /// Both nodes of a batch at once; false, and nothing written, when either is out of the ordinary.
     #[inline(always)]
-    fn fit_pair<const N: usize>(&mut self, rings: &Rings, batch: &Batch, sweep: &mut Sweep) -> bool {
+    fn fit_pair<const N: usize>(&mut self, rings: &Rings, batch: &Batch, sweep: &mut Sweep<'_>) -> bool {
         let ring = &mut sweep.pair;
         ring.load(rings, &self.positions, batch.nodes);
         if !ring.unroll() {
@@ -131,7 +184,9 @@ impl Fits {
         if !is_ordinary {
             return false;
         }
-        let energy = thin_plate::value(&fit);
+        let weight = Pair::gather(|lane| sweep.goals.price(batch.nodes[lane] as usize).plate);
+        let shown = Pair::gather(|lane| sweep.goals.price(batch.nodes[lane] as usize).rows());
+        let energy = thin_plate::value(&fit) * shown;
         for lane in 0..batch.count {
             let node = batch.nodes[lane] as usize;
             self.nodes[node] = Node {
@@ -142,11 +197,14 @@ impl Fits {
                 jacobian: fit.jacobian.lane(lane),
                 l: fit.l.map(|l| l.lane(lane)),
             };
-            self.keep_lengths(rings, node, lane, ring);
+            self.keep(rings, node, lane, ring, true);
         }
-        if self.has_gradient {
-            let adjoint = thin_plate::adjoint(&fit, ring.h, Pair::splat(0.0));
-            sweep.pair_back.run::<N>(ring, &fit, &adjoint);
+        if sweep.makes_gradient {
+            let bending = self.bending::<Pair>(batch.nodes);
+            let demand = Demand { weight, bending, slope: Pair::splat(0.0) };
+            let adjoint = thin_plate::adjoint(&fit, ring.h, &demand);
+            let turning = self.turning::<Pair>(rings, batch.nodes);
+            sweep.pair_back.run::<N>(ring, &fit, &adjoint, turning.as_ref());
             for lane in 0..batch.count {
                 self.scatter(rings, batch.nodes[lane], lane, &sweep.pair_back);
             }
@@ -158,23 +216,24 @@ impl Fits {
 
     /// One node of a batch, with care.
     #[inline(never)]
-    fn fit_single(&mut self, rings: &Rings, batch: &Batch, lane: usize, sweep: &mut Sweep) {
+    fn fit_single(&mut self, rings: &Rings, batch: &Batch, lane: usize, sweep: &mut Sweep<'_>) {
         let index = batch.nodes[lane];
         let node = index as usize;
         let ring = &mut sweep.single;
         ring.load(rings, &self.positions, [index; 2]);
         let careful = fit::fit_carefully(ring);
         let fit = &careful.fit;
+        let price = sweep.goals.price(node);
         self.nodes[node] = Node {
             normal: fit.normal.lane(0),
-            energy: energy_of(&careful),
+            energy: energy_of(&careful, price.rows()),
             area: fit.area,
             h: if ring.degree < 2 { 0.0 } else { ring.h },
             jacobian: fit.jacobian,
             l: fit.l,
         };
-        self.keep_lengths(rings, node, 0, ring);
-        if !self.has_gradient {
+        self.keep(rings, node, 0, ring, careful.is_fitted());
+        if !sweep.makes_gradient {
             return;
         }
         let rows = &mut self.rows[batch.rows()];
@@ -185,17 +244,49 @@ impl Fits {
         }
         if careful.is_fitted() {
             write_rows::<f64, 5>(ring, fit, |j, c, value| rows[j][c][lane] = value);
-            let adjoint = thin_plate::adjoint(fit, ring.h, barrier::slope(fit.jacobian));
-            sweep.single_back.run_carefully(ring, &careful, &adjoint);
+            let bending = self.bending::<f64>([index; 2]);
+            let demand = Demand { weight: price.plate, bending, slope: barrier::slope(fit.jacobian) };
+            let adjoint = thin_plate::adjoint(fit, ring.h, &demand);
+            let turning = self.turning::<f64>(rings, [index; 2]);
+            sweep.single_back.run_carefully(ring, &careful, &adjoint, turning.as_ref());
             self.scatter(rings, index, 0, &sweep.single_back);
         }
     }
 
+    /// Keeps what later work wants of a ring.
     #[inline(always)]
-    fn keep_lengths<T: Real>(&mut self, rings: &Rings, node: usize, lane: usize, ring: &Ring<T>) {
-        for (length, r) in self.lengths[rings.slots(node)].iter_mut().zip(&ring.r) {
+    fn keep<T: Real>(&mut self, rings: &Rings, node: usize, lane: usize, ring: &Ring<T>, is_fitted: bool) {
+        let slots = rings.slots(node);
+        for (length, r) in self.lengths[slots.clone()].iter_mut().zip(&ring.r) {
             *length = r.lane(lane);
         }
+        if let Some(variation) = &mut self.variation {
+            variation.is_fitted[node] = is_fitted;
+            for (direction, (cos, sin)) in
+                variation.directions[slots].iter_mut().zip(ring.cos.iter().zip(&ring.sin))
+            {
+                *direction = [cos.lane(lane), sin.lane(lane)];
+            }
+        }
+    }
+
+    /// What edges ask of the curvature of one node per lane.
+    #[inline(always)]
+    fn bending<T: Real>(&self, nodes: [u32; 2]) -> [T; 3] {
+        let Some(variation) = &self.variation else { return [T::splat(0.0); 3] };
+        std::array::from_fn(|c| T::gather(|lane| variation.bending[nodes[lane] as usize][c]))
+    }
+
+    /// What edges ask of the angles around one node per lane.
+    #[inline(always)]
+    fn turning<T: Real>(&self, rings: &Rings, nodes: [u32; 2]) -> Option<[T; MAX_RING]> {
+        let variation = self.variation.as_ref()?;
+        let mut turning = [T::splat(0.0); MAX_RING];
+        let slots = nodes.map(|node| rings.slots(node as usize));
+        for (j, turning) in turning.iter_mut().enumerate().take(slots[0].len()) {
+            *turning = T::gather(|lane| variation.turning[slots[lane].start + j]);
+        }
+        Some(turning)
     }
 
     /// Adds what a node's chords feel to their ends.
@@ -212,12 +303,12 @@ impl Fits {
 }
 
 /// Thin plate and barrier of a fit made with care.
-fn energy_of(careful: &CarefulFit) -> f64 {
+fn energy_of(careful: &CarefulFit, weight: f64) -> f64 {
     match careful.kind {
         Kind::Flat => 0.0,
         Kind::Folded => barrier::value(careful.fit.jacobian),
         Kind::Plain | Kind::Filtered => {
-            thin_plate::value(&careful.fit) + barrier::value(careful.fit.jacobian)
+            weight * thin_plate::value(&careful.fit) + barrier::value(careful.fit.jacobian)
         }
     }
 }
@@ -266,12 +357,12 @@ mod tests {
     #[test]
     fn pairs_and_single_nodes_agree() {
         let (rings, positions) = rough();
-        let mut together = Fits::new(&rings);
-        together.refit(&rings, &positions, Wanted::Gradient);
-        let mut alone = Fits::new(&rings);
+        let goals = Goals::default();
+        let mut together = Fits::new(&rings, &goals);
+        together.refit(&rings, &goals, &positions, Wanted::Gradient);
+        let mut alone = Fits::new(&rings, &goals);
         alone.positions.copy_from_slice(&positions);
-        alone.has_gradient = true;
-        let mut sweep = Sweep::default();
+        let mut sweep = Sweep::new(&goals, true);
         for batch in rings.batches() {
             for lane in 0..batch.count {
                 alone.fit_single(&rings, batch, lane, &mut sweep);
@@ -294,11 +385,12 @@ mod tests {
     #[test]
     fn a_sweep_without_gradient_is_not_mistaken_for_one_with() {
         let (rings, positions) = rough();
-        let mut fits = Fits::new(&rings);
-        fits.refit(&rings, &positions, Wanted::Energy);
+        let goals = Goals::default();
+        let mut fits = Fits::new(&rings, &goals);
+        fits.refit(&rings, &goals, &positions, Wanted::Energy);
         assert!(fits.gradient.iter().all(|g| *g == DVec3::ZERO));
         let energy = fits.energy;
-        fits.refit(&rings, &positions, Wanted::Gradient);
+        fits.refit(&rings, &goals, &positions, Wanted::Gradient);
         assert!(fits.gradient.iter().any(|g| *g != DVec3::ZERO));
         assert_eq!(fits.energy.to_bits(), energy.to_bits());
     }

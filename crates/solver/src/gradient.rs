@@ -49,13 +49,29 @@ struct Exceptions {
 
 impl<T: Real> Backward<T> {
     /// The derivative with respect to every chord of ordinary fits.
+    ///
+    /// `turning` is what else there is to the derivative with respect to every `theta_j`.
     #[inline(always)]
-    pub(crate) fn run<const N: usize>(&mut self, ring: &Ring<T>, fit: &Fit<T>, adjoint: &Adjoint<T>) {
+    pub(crate) fn run<const N: usize>(
+        &mut self,
+        ring: &Ring<T>,
+        fit: &Fit<T>,
+        adjoint: &Adjoint<T>,
+        turning: Option<&[T; MAX_RING]>,
+    ) {
         self.begin(ring);
         self.through_fit::<N>(ring, fit, adjoint);
+        self.add_turning(ring, turning);
         self.through_area(ring, adjoint.area);
         self.through_angles(ring);
         self.through_lengths(ring);
+    }
+
+    #[inline(always)]
+    fn add_turning(&mut self, ring: &Ring<T>, turning: Option<&[T; MAX_RING]>) {
+        for (theta, &turning) in self.theta[..ring.degree].iter_mut().zip(turning.into_iter().flatten()) {
+            *theta += turning;
+        }
     }
 
     #[inline(always)]
@@ -170,7 +186,13 @@ impl<T: Real> Backward<T> {
 
 impl Backward<f64> {
     /// The same for a fit that needed care.
-    pub(crate) fn run_carefully(&mut self, ring: &Ring<f64>, careful: &CarefulFit, adjoint: &Adjoint<f64>) {
+    pub(crate) fn run_carefully(
+        &mut self,
+        ring: &Ring<f64>,
+        careful: &CarefulFit,
+        adjoint: &Adjoint<f64>,
+        turning: Option<&[f64; MAX_RING]>,
+    ) {
         let is_filtered = careful.kind == Kind::Filtered;
         let exceptions = Exceptions {
             is_area_clamped: careful.is_area_clamped,
@@ -181,6 +203,7 @@ impl Backward<f64> {
             Some(filter) => self.through_filter(ring, &careful.fit, adjoint, filter),
             None => self.through_fit::<5>(ring, &careful.fit, adjoint),
         }
+        self.add_turning(ring, turning);
         if !exceptions.is_area_clamped {
             self.through_area(ring, adjoint.area);
         }

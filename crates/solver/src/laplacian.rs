@@ -169,6 +169,11 @@ impl Laplacian {
         self.factor.solve_around(diagonal, r, z);
     }
 
+    /// Overwrites `x` with `L⁻¹ M x` for a diagonal `M` in the factor's order.
+    pub(crate) fn solve_after(&mut self, diagonal: &[f64], x: &mut [f64]) {
+        self.factor.solve_after(diagonal, x);
+    }
+
     /// One number per unknown, brought into the factor's order.
     pub(crate) fn ordered(&self, x: &[f64]) -> Vec<f64> {
         self.factor.ordered(x)

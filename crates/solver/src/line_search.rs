@@ -7,6 +7,7 @@
 use glam::DVec3;
 
 use crate::fits::{Fits, Wanted};
+use crate::objective::Goals;
 use crate::operator::{FIXED, Unknowns};
 use crate::rings::Rings;
 
@@ -14,6 +15,9 @@ use crate::rings::Rings;
 const MAX_HALVINGS: u32 = 20;
 /// Share of the linear decrease that is asked for (Armijo).
 const SUFFICIENT: f64 = 1e-4;
+
+/// Largest factor by which the thin plate's energy may rise in a step that does not seek to lower it.
+const RISE: f64 = 2.0;
 
 /// The result of a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,30 +46,61 @@ pub(crate) fn first_scale(rings: &Rings, fits: &Fits, unknowns: &Unknowns, alpha
     0.5 / worst
 }
 
-/// Searches along `p + s alpha n`. On success `trial` holds the fits at the accepted positions.
-///
-/// `slope` is `g·alpha`, negative.
-pub(crate) fn search(
-    rings: &Rings,
-    unknowns: &Unknowns,
-    fits: &Fits,
-    alpha: &[f64],
-    slope: f64,
-    trial_positions: &mut [DVec3],
-    trial: &mut Fits,
-) -> Found {
-    let mut scale = first_scale(rings, fits, unknowns, alpha);
-    for halvings in 0..=MAX_HALVINGS {
-        trial_positions.copy_from_slice(&fits.positions);
-        for (&node, &alpha) in unknowns.nodes.iter().zip(alpha) {
-            trial_positions[node as usize] += fits.nodes[node as usize].normal * (scale * alpha);
-        }
-        // With the gradient, which the next step wants: most first trials are accepted.
-        trial.refit(rings, trial_positions, Wanted::Gradient);
-        if trial.energy <= fits.energy + SUFFICIENT * scale * slope {
-            return Found { scale, halvings, is_accepted: true };
-        }
-        scale *= 0.5;
+/// A direction and where it starts.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Search<'a> {
+    pub(crate) goals: &'a Goals,
+    pub(crate) rings: &'a Rings,
+    pub(crate) unknowns: &'a Unknowns,
+    pub(crate) fits: &'a Fits,
+    /// Offset along the normal, per unknown.
+    pub(crate) alpha: &'a [f64],
+    /// `g·alpha`, negative.
+    pub(crate) slope: f64,
+}
+
+impl Search<'_> {
+    /// Searches along `p + s alpha n` for a lower energy. On success `trial` holds the fits at the accepted positions.
+    pub(crate) fn by_energy(&self, positions: &mut [DVec3], trial: &mut Fits) -> Found {
+        self.halve(positions, trial, |trial, scale| {
+            trial.energy <= self.fits.energy + SUFFICIENT * scale * self.slope
+        })
     }
-    Found { scale: 0.0, halvings: MAX_HALVINGS, is_accepted: false }
+
+    /// The same where no energy falls: the slope along the direction has to become less, on either side of zero.
+    ///
+    /// The thin plate's energy may rise on the way, but not far: that would be a fold.
+    pub(crate) fn by_slope(
+        &self,
+        positions: &mut [DVec3],
+        trial: &mut Fits,
+        mut slope_of: impl FnMut(&Fits) -> f64,
+    ) -> Found {
+        self.halve(positions, trial, |trial, scale| {
+            trial.energy <= RISE * self.fits.energy + 1.0
+                && slope_of(trial).abs() <= (1.0 - SUFFICIENT * scale) * self.slope.abs()
+        })
+    }
+
+    fn halve(
+        &self,
+        positions: &mut [DVec3],
+        trial: &mut Fits,
+        mut is_good: impl FnMut(&Fits, f64) -> bool,
+    ) -> Found {
+        let mut scale = first_scale(self.rings, self.fits, self.unknowns, self.alpha);
+        for halvings in 0..=MAX_HALVINGS {
+            positions.copy_from_slice(&self.fits.positions);
+            for (&node, &alpha) in self.unknowns.nodes.iter().zip(self.alpha) {
+                positions[node as usize] += self.fits.nodes[node as usize].normal * (scale * alpha);
+            }
+            // With the gradient, which the next step wants: most first trials are accepted.
+            trial.refit(self.rings, self.goals, positions, Wanted::Gradient);
+            if is_good(trial, scale) {
+                return Found { scale, halvings, is_accepted: true };
+            }
+            scale *= 0.5;
+        }
+        Found { scale: 0.0, halvings: MAX_HALVINGS, is_accepted: false }
+    }
 }

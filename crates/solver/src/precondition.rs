@@ -26,12 +26,19 @@ pub(crate) struct Preconditioner {
     /// Chord lengths at the last refresh; empty before the first.
     lengths: Vec<f64>,
     served_badly: bool,
+    scratch: Vec<f64>,
 }
 
 impl Preconditioner {
     pub(crate) fn new(rings: &Rings, unknowns: &Unknowns, acting: Acting) -> Result<Self, FactorError> {
         let laplacian = Laplacian::new(rings, unknowns, acting)?;
-        Ok(Self { laplacian, mass: Vec::new(), lengths: Vec::new(), served_badly: false })
+        Ok(Self {
+            laplacian,
+            mass: Vec::new(),
+            lengths: Vec::new(),
+            served_badly: false,
+            scratch: Vec::new(),
+        })
     }
 
     /// Brings the factor up to date if it is stale. `shift` per unknown keeps parts without fixed nodes regular.
@@ -65,6 +72,35 @@ impl Preconditioner {
     /// Reports how many iterations a solve to its tolerance took.
     pub(crate) fn served(&mut self, iterations: u32) {
         self.served_badly = iterations > SUSPECT_ITERATIONS;
+    }
+
+    /// `z = P⁻¹ r` where the parts between fixed nodes have equations of different orders.
+    ///
+    /// `order_of` gives the number of Laplacian solves and a factor for each unknown. No edge joins two free nodes of
+    /// different orders, so that the solves of one part do not reach into the other.
+    pub(crate) fn apply_by_order(&mut self, r: &[f64], z: &mut [f64], order_of: impl Fn(usize) -> (u8, f64)) {
+        let mut now = std::mem::take(&mut self.scratch);
+        now.clear();
+        now.extend_from_slice(r);
+        for order in 1..=3 {
+            if order > 1 {
+                self.laplacian.solve_after(&self.mass, &mut now);
+            } else {
+                self.laplacian.solve(&mut now);
+            }
+            let mut is_last = true;
+            for (unknown, (z, &now)) in z.iter_mut().zip(&now).enumerate() {
+                let (wanted, factor) = order_of(unknown);
+                if wanted == order {
+                    *z = now * factor;
+                }
+                is_last &= wanted <= order;
+            }
+            if is_last {
+                break;
+            }
+        }
+        self.scratch = now;
     }
 
     /// `z = P⁻¹ r`

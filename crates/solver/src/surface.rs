@@ -2,7 +2,7 @@
 //!
 //! Source: recipe sections 4 and 5. A step fits, takes the exact gradient, solves a damped Gauss-Newton system by a
 //! budget of preconditioned conjugate gradients and searches along the normals on the true discrete energy, which
-//! therefore never rises. The accepted fit serves the next step. No buffer is allocated while the connectivity and
+//! therefore never rises (other objectives than the thin plate: see `objective`). The accepted fit serves the next step. No buffer is allocated while the connectivity and
 //! the fixed nodes stay.
 //!
 //! ```
@@ -14,8 +14,10 @@
 //! assert!(report.energy <= report.energy_before);
 //! ```
 
+mod advance;
 mod figures;
 mod frozen;
+mod matrix;
 
 pub use figures::NodeFigures;
 pub use frozen::Frozen;
@@ -30,7 +32,7 @@ use crate::factor::FactorError;
 use crate::fit::Curvature;
 use crate::fits::{Fits, Wanted};
 use crate::laplacian::Acting;
-use crate::line_search;
+use crate::objective::{Goals, Objectives};
 use crate::operator::Unknowns;
 use crate::precondition::Preconditioner;
 use crate::predictor::{self, Parts, Predicted, Predictor};
@@ -38,26 +40,15 @@ use crate::report::StepReport;
 use crate::rings::Rings;
 use crate::smooth::{self, SmoothReport};
 
-/// Move below which a step counts as rest, in units of the local mean edge.
-const REST_MOVE: f64 = 1e-3;
-/// Predicted decrease below which a step counts towards rest, relative to the energy.
-const REST_DECREASE: f64 = 1e-6;
-/// Steps of small predicted decrease that make rest.
-const REST_STEPS: u32 = 3;
-/// Residual above which a direction says nothing about rest: the budget was too small.
-const REST_RESIDUAL: f64 = 0.3;
-/// Decrease, relative to the energy, that rounding could fake: nothing is left to gain.
-const NOISE: f64 = 1e-14;
-/// Damping is raised by this after a failed search, up to the maximum, and lowered again by success.
-const DAMPING_RAISE: f64 = 10.0;
-const DAMPING_LOWER: f64 = 0.2;
-const DAMPING_MAX: f64 = 1e8;
+use matrix::{Matrix, Scratch};
 
 /// Fair surfaces over one frozen connectivity.
 #[derive(Clone, Debug)]
 pub struct SurfaceSolver {
     rings: Rings,
     settings: Settings,
+    objectives: Objectives,
+    goals: Goals,
     fixed: Vec<bool>,
     components: Components,
     unknowns: Unknowns,
@@ -72,8 +63,10 @@ pub struct SurfaceSolver {
     normals: Vec<DVec3>,
     /// `-g/2` per unknown, and the direction.
     rhs: Vec<f64>,
+    trial_rhs: Vec<f64>,
     alpha: Vec<f64>,
     workspace: Workspace,
+    scratch: Scratch,
     /// Factor on the mass damping, above 1 after failed searches.
     damping: f64,
     quiet_steps: u32,
@@ -84,19 +77,24 @@ impl SurfaceSolver {
     pub fn new(rings: Rings, fixed: Vec<bool>, settings: Settings) -> Result<Self, SolverError> {
         check_length(rings.len(), fixed.len())?;
         let unknowns = unknowns(&rings, &fixed);
+        let goals = Goals::default();
         Ok(Self {
             components: Components::new(&rings),
             assembly: Assembly::new(&rings, &unknowns),
             preconditioner: Preconditioner::new(&rings, &unknowns, Acting::OnOffsets)?,
             field_preconditioner: field_preconditioner(&rings, &unknowns)?,
             predictor: Predictor::default(),
-            fits: Fits::new(&rings),
-            trial: Fits::new(&rings),
+            fits: Fits::new(&rings, &goals),
+            trial: Fits::new(&rings, &goals),
             trial_positions: vec![DVec3::ZERO; rings.len()],
             normals: vec![DVec3::Z; rings.len()],
             rhs: Vec::new(),
+            trial_rhs: Vec::new(),
             alpha: Vec::new(),
             workspace: Workspace::default(),
+            scratch: Scratch::default(),
+            objectives: Objectives::default(),
+            goals,
             damping: 1.0,
             quiet_steps: 0,
             unknowns,
@@ -133,6 +131,33 @@ impl SurfaceSolver {
         Ok(())
     }
 
+    /// Chooses what is minimised; at first it is the thin plate. Nothing is done where that is the choice already.
+    ///
+    /// # Errors
+    /// [`SolverError::Length`] when there is a choice for each triangle, but not for each of these.
+    pub fn set_objectives(&mut self, objectives: Objectives) -> Result<(), SolverError> {
+        if let Some(found) = objectives.triangles() {
+            check_length(self.rings.triangles().len(), found)?;
+        }
+        if let (Some(radius), true) =
+            (objectives.only_radius(&self.objectives), objectives != self.objectives)
+        {
+            self.goals.radius = radius;
+            self.fits.forget();
+            self.trial.forget();
+            self.quiet_steps = 0;
+            self.objectives = objectives;
+        } else if objectives != self.objectives {
+            self.goals = Goals::new(&self.rings, &objectives);
+            self.fits = Fits::new(&self.rings, &self.goals);
+            self.trial = Fits::new(&self.rings, &self.goals);
+            self.objectives = objectives;
+            self.damping = 1.0;
+            self.quiet_steps = 0;
+        }
+        Ok(())
+    }
+
     /// Carries moved constraint nodes and everything between them by a smooth field.
     ///
     /// `moves` names fixed nodes and their displacements; a node named twice moves by the last. Fixed nodes not
@@ -149,7 +174,7 @@ impl SurfaceSolver {
         }
         self.refit(positions, Wanted::Gradient);
         self.prepare()?;
-        self.assembly.assemble(&self.rings, &self.fits, Rows::Field, |_| 0.0);
+        self.assembly.assemble(&self.rings, &self.goals, &self.fits, Rows::Field, |_| 0.0);
         let limit = Limit {
             iterations: self.settings.predictor_iterations,
             tolerance: self.settings.predictor_tolerance,
@@ -174,7 +199,8 @@ impl SurfaceSolver {
         Ok(Predicted { fraction, strain, iterations: outcome.iterations, residual: outcome.residual })
     }
 
-    /// One non-linear step. Never raises the energy; a failed search leaves the positions alone.
+    /// One non-linear step; a failed search leaves the positions alone. Never raises the energy, except where neutral
+    /// nodes have none.
     pub fn step(&mut self, positions: &mut [DVec3], budget: Budget) -> Result<StepReport, SolverError> {
         check_positions(self.rings.len(), positions)?;
         self.refit(positions, Wanted::Gradient);
@@ -183,18 +209,30 @@ impl SurfaceSolver {
         self.prepare()?;
         let (fits, unknowns, components) = (&self.fits, &self.unknowns, &self.components);
         let (settings, damping) = (&self.settings, self.damping);
-        self.assembly.assemble(&self.rings, fits, Rows::Offset, |unknown| {
+        self.assembly.assemble(&self.rings, &self.goals, fits, Rows::Offset, |unknown| {
             let node = unknowns.nodes[unknown] as usize;
             damping * mass(fits, components, &looseness, settings, node)
         });
         self.alpha.clear();
         self.alpha.resize(self.unknowns.len(), 0.0);
+        let matrix = Matrix {
+            goals: &self.goals,
+            rings: &self.rings,
+            fits: &self.fits,
+            unknowns: &self.unknowns,
+            plate: self.assembly.matrix(),
+        };
+        // The wider equations of curvature variation take about twice the iterations.
+        let (iterations, tolerance) = match &self.goals.network {
+            Some(_) => (budget.iterations.saturating_mul(2), self.settings.variation_tolerance),
+            None => (budget.iterations, self.settings.step_tolerance),
+        };
         let outcome = cg::solve(
-            |x, y| self.assembly.matrix().multiply(x, y),
-            |r, z| self.preconditioner.apply(r, z),
+            |x, y| matrix.multiply(x, y, &mut self.scratch),
+            |r, z| matrix.precondition(&mut self.preconditioner, r, z),
             &self.rhs,
             &mut self.alpha,
-            Limit { iterations: budget.iterations, tolerance: self.settings.step_tolerance },
+            Limit { iterations, tolerance },
             &mut self.workspace,
         );
         self.served(outcome.iterations);
@@ -232,7 +270,8 @@ impl SurfaceSolver {
         &self.normals
     }
 
-    /// Discrete energy of the newest fit; NaN before the first.
+    /// Discrete energy of the newest fit, in units of the thin plate; NaN before the first. Neutral nodes count with the
+    /// thin plate's, though no step seeks to lower it.
     pub fn energy(&self) -> f64 {
         self.fits.energy
     }
@@ -260,12 +299,12 @@ impl SurfaceSolver {
         self.fits.nodes[node as usize].jacobian
     }
 
-    /// Exact `dE/dp` of every node in the newest fit, and the energy.
+    /// Exact `dE/dp` of every node in the newest fit. Neutral nodes have no energy to differentiate.
     pub fn gradient(&mut self) -> &[DVec3] {
         let positions = std::mem::take(&mut self.trial_positions);
         let mut here = positions;
         here.copy_from_slice(&self.fits.positions);
-        self.fits.refit(&self.rings, &here, Wanted::Gradient);
+        self.fits.refit(&self.rings, &self.goals, &here, Wanted::Gradient);
         self.trial_positions = here;
         &self.fits.gradient
     }
@@ -317,18 +356,22 @@ impl SurfaceSolver {
 
     /// Fits at these positions, and the normals that go with them.
     fn refit(&mut self, positions: &[DVec3], wanted: Wanted) {
-        self.fits.refit(&self.rings, positions, wanted);
+        self.fits.refit(&self.rings, &self.goals, positions, wanted);
         for (normal, fit) in self.normals.iter_mut().zip(&self.fits.nodes) {
             *normal = fit.normal;
         }
     }
 
-    /// Right-hand side `-g/2` from the exact gradient along the normals.
+    /// Right-hand side `-g/2`.
     fn slopes(&mut self) {
-        self.rhs.clear();
-        let slope =
-            |&node: &u32| -0.5 * self.fits.gradient[node as usize].dot(self.fits.nodes[node as usize].normal);
-        self.rhs.extend(self.unknowns.nodes.iter().map(slope));
+        matrix::slopes(
+            &self.goals,
+            &self.rings,
+            &self.fits,
+            &self.unknowns,
+            &mut self.rhs,
+            &mut self.scratch,
+        );
     }
 
     /// Brings the preconditioners up to date, both at once, so that their ages never depend on the senses.
@@ -356,59 +399,6 @@ impl SurfaceSolver {
         for preconditioner in self.field_preconditioner.iter_mut().chain([&mut self.preconditioner]) {
             preconditioner.served(iterations);
         }
-    }
-
-    /// Line search along the direction, acceptance, rest.
-    fn advance(&mut self, positions: &mut [DVec3], report: &mut StepReport) {
-        let slope = -2.0 * cg::dot(&self.rhs, &self.alpha);
-        let energy = self.fits.energy;
-        let is_converged = report.residual <= REST_RESIDUAL;
-        // Nothing left to gain, or nothing to go by.
-        if !(slope < -NOISE * energy) || !slope.is_finite() || !energy.is_finite() {
-            report.damped = !(slope.is_finite() && energy.is_finite());
-            // A gradient of rounding errors need not let the conjugate gradients converge: then it must show three times.
-            self.quiet_steps = if report.damped { 0 } else { self.quiet_steps + 1 };
-            let is_sure = is_converged || (report.cg_iterations > 0 && self.quiet_steps >= REST_STEPS);
-            report.at_rest = !report.damped && is_sure;
-            return;
-        }
-        let found = line_search::search(
-            &self.rings,
-            &self.unknowns,
-            &self.fits,
-            &self.alpha,
-            slope,
-            &mut self.trial_positions,
-            &mut self.trial,
-        );
-        report.halvings = found.halvings;
-        report.step_scale = found.scale;
-        report.predicted_decrease = -slope * found.scale;
-        self.quiet_steps =
-            if -slope < REST_DECREASE * energy && is_converged { self.quiet_steps + 1 } else { 0 };
-        if !found.is_accepted {
-            self.damping = (self.damping * DAMPING_RAISE).min(DAMPING_MAX);
-            report.damped = true;
-            report.at_rest = self.quiet_steps >= REST_STEPS;
-            return;
-        }
-        self.damping = (self.damping * DAMPING_LOWER).max(1.0);
-        for (&node, &alpha) in self.unknowns.nodes.iter().zip(&self.alpha) {
-            let distance = found.scale * alpha.abs();
-            report.largest_move = report.largest_move.max(distance);
-            let h = self.fits.nodes[node as usize].h;
-            report.largest_relative_move = report.largest_relative_move.max(distance / h);
-        }
-        std::mem::swap(&mut self.fits, &mut self.trial);
-        positions.copy_from_slice(&self.fits.positions);
-        for (normal, fit) in self.normals.iter_mut().zip(&self.fits.nodes) {
-            *normal = fit.normal;
-        }
-        report.energy = self.fits.energy;
-        let is_small = report.largest_relative_move < REST_MOVE
-            && found.halvings == 0
-            && report.residual <= self.settings.step_tolerance;
-        report.at_rest = is_small || self.quiet_steps >= REST_STEPS;
     }
 }
 

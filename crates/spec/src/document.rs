@@ -89,6 +89,33 @@ pub struct Surface {
     /// What it minimises where that differs from the document's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub objective: Option<Objective>,
+    /// Regions that minimise something else than the rest of it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub regions: Vec<Region>,
+}
+
+/// A region of a surface: what lies beside a stretch of one of its curves, up to the next curves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Region {
+    /// A curve at its border.
+    pub curve: CurveId,
+    /// The control point from which the stretch of that curve runs to the next.
+    pub from: PointId,
+    /// On which side of it.
+    pub side: Side,
+    /// What the region minimises.
+    pub objective: Objective,
+}
+
+/// A side of a curve in a surface, along the curve, seen from where the triangles beside it look counter-clockwise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Side {
+    /// To its left.
+    Left,
+    /// To its right.
+    Right,
 }
 
 /// A minimal triangulation of a surface: the least that still has its topology and all of its controls.
@@ -136,7 +163,7 @@ impl Surface {
     /// A surface with this skeleton, without choices of its own.
     #[must_use]
     pub fn new(skeleton: Skeleton) -> Self {
-        Self { skeleton, spacing: None, objective: None }
+        Self { skeleton, spacing: None, objective: None, regions: Vec::new() }
     }
 }
 

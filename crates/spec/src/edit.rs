@@ -114,7 +114,7 @@ impl Edit {
 }
 
 /// What an objective is chosen for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum ObjectiveOf {
     /// Everything that has no choice of its own.
     Document,
@@ -122,6 +122,13 @@ pub enum ObjectiveOf {
     Curve(CurveId),
     /// A surface.
     Surface(SurfaceId),
+    /// The region of a surface, between its curves, nearest to a place.
+    Region {
+        /// Which surface.
+        surface: SurfaceId,
+        /// Where, roughly.
+        at: DVec3,
+    },
 }
 
 /// What a new curve passes through.

@@ -16,7 +16,7 @@ mod text;
 mod validate;
 
 pub use document::{
-    Curve, Document, Embedding, MAX_COORDINATE, Objective, Skeleton, SkeletonVertex, Surface,
+    Curve, Document, Embedding, MAX_COORDINATE, Objective, Region, Side, Skeleton, SkeletonVertex, Surface,
 };
 pub use edit::{Edit, GrabTarget, ObjectiveOf, Through};
 pub use example::Example;

@@ -99,6 +99,18 @@ pub enum Defect {
     /// A surface has no triangle.
     #[error("{0} has no triangles")]
     EmptySurface(SurfaceId),
+    /// A region of a surface is not where it is said to be.
+    #[error("{surface}: the region beside {curve} from {point}: {why}")]
+    Region {
+        /// Which surface.
+        surface: SurfaceId,
+        /// The curve at its border.
+        curve: CurveId,
+        /// Where its stretch begins.
+        point: PointId,
+        /// What is wrong.
+        why: &'static str,
+    },
     /// A curve cannot lie in a surface as stated.
     #[error("{surface}: {curve} {why}")]
     Embedding {
@@ -209,7 +221,28 @@ fn validate_surface(id: SurfaceId, surface: &Surface, document: &Document) -> Re
             return Err(refuse(corners[0], "or another one is repeated"));
         }
     }
-    validate_embeddings(id, surface, document)
+    validate_embeddings(id, surface, document)?;
+    validate_regions(id, surface, document)
+}
+
+fn validate_regions(id: SurfaceId, surface: &Surface, document: &Document) -> Result<(), Defect> {
+    let mut seen = BTreeSet::new();
+    for region in &surface.regions {
+        let refuse = |why| Err(Defect::Region { surface: id, curve: region.curve, point: region.from, why });
+        let curve = document.curves.get(&region.curve);
+        let Some(curve) = curve.filter(|_| surface.skeleton.curves.iter().any(|e| e.curve == region.curve))
+        else {
+            return refuse("the curve does not lie in the surface");
+        };
+        let starts = if curve.closed { curve.through.len() } else { curve.through.len() - 1 };
+        if !curve.through[..starts].contains(&region.from) {
+            return refuse("no stretch of the curve begins at that point");
+        }
+        if !seen.insert((region.curve, region.from, region.side)) {
+            return refuse("it is spoken of twice");
+        }
+    }
+    Ok(())
 }
 
 fn validate_embeddings(id: SurfaceId, surface: &Surface, document: &Document) -> Result<(), Defect> {

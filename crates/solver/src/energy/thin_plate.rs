@@ -18,9 +18,21 @@ fn density<T: Real>(fit: &Fit<T>) -> T {
     fit.l[0] * fit.l[0] + fit.l[1] * fit.l[1] + fit.l[2] * fit.l[2]
 }
 
-/// The adjoint of energy and barrier together; `h` is the mean chord and `slope` the barrier's.
+/// What is asked of the fit of a node, or of two.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Demand<T> {
+    /// Weight of the thin plate.
+    pub(crate) weight: T,
+    /// Derivative of other terms with respect to `L = (L11, √2 L12, L22)`.
+    pub(crate) bending: [T; 3],
+    /// Slope of the barrier.
+    pub(crate) slope: T,
+}
+
+/// The adjoint of weighted plate, bending and barrier together; `h` is the mean chord.
 #[inline(always)]
-pub(crate) fn adjoint<T: Real>(fit: &Fit<T>, h: T, slope: T) -> Adjoint<T> {
+pub(crate) fn adjoint<T: Real>(fit: &Fit<T>, h: T, demand: &Demand<T>) -> Adjoint<T> {
+    let Demand { weight, bending, slope } = *demand;
     let two = T::splat(2.0);
     let inverse_square = T::splat(1.0) / (h * h);
     let n = fit.normal;
@@ -28,7 +40,7 @@ pub(crate) fn adjoint<T: Real>(fit: &Fit<T>, h: T, slope: T) -> Adjoint<T> {
     let mut normal_bar = Vector::zero();
     let scale = two * fit.area * inverse_square;
     for i in 0..3 {
-        let factor = scale * fit.l[i];
+        let factor = scale * fit.l[i] * weight + bending[i] * inverse_square;
         d[i + 2] = n * factor;
         normal_bar += fit.d[i + 2] * factor;
     }
@@ -39,5 +51,7 @@ pub(crate) fn adjoint<T: Real>(fit: &Fit<T>, h: T, slope: T) -> Adjoint<T> {
     d[0] = fit.d[1].cross(m_bar);
     d[1] = m_bar.cross(fit.d[0]);
     let density = density(fit);
-    Adjoint { d, area: density, h: -(two / h) * (two * fit.area * density + slope * fit.jacobian) }
+    let other = bending[0] * fit.l[0] + bending[1] * fit.l[1] + bending[2] * fit.l[2];
+    let along = two * fit.area * density * weight + other + slope * fit.jacobian;
+    Adjoint { d, area: density * weight, h: -(two / h) * along }
 }
