@@ -217,25 +217,44 @@ impl BoundSurface {
     }
 }
 
+/// An objective of the document in the solver's words.
+pub(crate) fn solvers_word(objective: Objective) -> ductile_solver::Objective {
+    match objective {
+        Objective::ThinPlate => ductile_solver::Objective::ThinPlate,
+        Objective::Fair => ductile_solver::Objective::Fair,
+        Objective::Neutral => ductile_solver::Objective::Neutral,
+        Objective::Membrane => ductile_solver::Objective::Membrane,
+    }
+}
+
 /// A curve solver for one revision of a curve.
 #[derive(Clone, Debug)]
 pub(crate) struct BoundCurve {
     /// Which sampling it was made for.
-    pub(crate) revision: u64,
+    revision: u64,
+    /// What it minimises.
+    objective: Objective,
     /// The solver.
-    pub(crate) solver: CurveSolver,
+    solver: CurveSolver,
 }
 
 impl BoundCurve {
     /// Sets up the solver for a curve as it is now.
-    pub(crate) fn new(id: CurveId, shape: &CurveShape) -> Result<Self, ModelError> {
+    pub(crate) fn new(id: CurveId, shape: &CurveShape, objective: Objective) -> Result<Self, ModelError> {
         let mut fixed = vec![false; shape.nodes.len()];
         for (sample, _) in &shape.controls {
             fixed[*sample as usize] = true;
         }
-        let solver = CurveSolver::new(shape.nodes.len(), shape.closed, fixed, CurveSettings::default())
+        let mut settings = CurveSettings::default();
+        settings.objective = solvers_word(objective);
+        let solver = CurveSolver::new(shape.nodes.len(), shape.closed, fixed, settings)
             .map_err(|reason| ModelError::Unsolvable { what: id.to_string(), reason })?;
-        Ok(Self { revision: shape.revision, solver })
+        Ok(Self { revision: shape.revision, objective, solver })
+    }
+
+    /// Whether it is for this sampling and this objective.
+    pub(crate) fn is_for(&self, shape: &CurveShape, objective: Objective) -> bool {
+        self.revision == shape.revision && self.objective == objective
     }
 
     /// Carries the controls and steps once. Returns whether the controls are met and whether the curve rests.

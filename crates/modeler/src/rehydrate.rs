@@ -44,7 +44,7 @@ pub(crate) fn build_curve(
         shape.controls.push((count_u32(shape.nodes.len()), curve.through[count - 1]));
         shape.nodes.push(corners[count - 1]);
     }
-    let mut bound = BoundCurve::new(id, &shape)?;
+    let mut bound = BoundCurve::new(id, &shape, document.objective_of_curve(id))?;
     for round in 0..CURVE_STEPS {
         let (_, rests) = bound
             .relax(&mut shape.nodes, &Motion::default())

@@ -115,7 +115,8 @@ impl Relaxer {
     fn rebind(&mut self, model: &Model) {
         self.surfaces
             .retain(|id, bound| model.surfaces.get(id).is_some_and(|s| s.revision == bound.revision));
-        self.curves.retain(|id, bound| model.curves.get(id).is_some_and(|c| c.revision == bound.revision));
+        let objective = |id| model.document.objective_of_curve(id);
+        self.curves.retain(|id, bound| model.curves.get(id).is_some_and(|c| bound.is_for(c, objective(*id))));
         self.states.retain(|id, _| model.surfaces.contains_key(id));
         self.curves_at_rest.retain(|id, _| model.curves.contains_key(id));
         for (id, shape) in &model.surfaces {
@@ -138,7 +139,7 @@ impl Relaxer {
         for (id, shape) in &model.curves {
             if !self.curves.contains_key(id) {
                 self.curves_at_rest.remove(id);
-                match BoundCurve::new(*id, shape) {
+                match BoundCurve::new(*id, shape, objective(*id)) {
                     Ok(bound) => drop(self.curves.insert(*id, bound)),
                     Err(_) => self.rescues = self.rescues.saturating_add(1),
                 }

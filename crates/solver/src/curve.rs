@@ -1,9 +1,10 @@
-//! Fair curves: `∫ κ² ds` over a polygon, with the same verbs as a surface.
+//! Fair curves over a polygon, with the same verbs as a surface.
 //!
 //! Source: recipe section 10 and Welch 1995, sections 5.3.3 and 5.4.1: the surface's story in one dimension, with
 //! the exact gradient instead of the frozen one. A node has two unknowns, offsets in the plane normal to its tangent.
-//! Curves are short, so the linear systems are solved directly. `∫ κ² ds` favours growth; a rope that is slack on
-//! ordinary shapes (see `energy`) keeps a curve within reach of its control points.
+//! Curves are short, so the linear systems are solved directly. What is minimised is chosen by [`CurveSettings`] (see
+//! `objective`). `∫ κ² ds` favours growth; a rope that is slack on ordinary shapes (see `price`) keeps a curve within
+//! reach of its control points.
 //!
 //! ```
 //! use ductile_solver::{CurveSettings, CurveSolver};
@@ -14,43 +15,43 @@
 //! assert!(report.energy <= report.energy_before);
 //! ```
 
-mod energy;
+mod bends;
+mod fair;
+mod hinge;
+mod neutral;
+mod objective;
+mod price;
 mod resample;
+mod step;
 mod system;
 
 use glam::DVec3;
 
 use crate::error::{SolverError, check_length, check_positions};
 use crate::factor::FactorError;
+use crate::objective::Objective;
 use crate::predictor::{self, Predicted};
-use crate::report::StepReport;
 
 pub use resample::{Resampled, resample, respace};
 
-use energy::{Bends, Price};
+use bends::Bends;
+use objective::Character;
+use price::Price;
 use system::{Frames, System};
-
-/// Move below which a step counts as rest, in units of the local edge.
-const REST_MOVE: f64 = 1e-3;
-/// Predicted decrease below which a step counts towards rest, relative to the energy; three such steps make rest.
-const REST_DECREASE: f64 = 1e-6;
-const REST_STEPS: u32 = 3;
-/// Decrease that rounding could fake.
-const NOISE: f64 = 1e-14;
-const MAX_HALVINGS: u32 = 20;
-const SUFFICIENT: f64 = 1e-4;
 
 /// Numbers that steer a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct CurveSettings {
+    /// What is minimised.
+    pub objective: Objective,
     /// Largest relative strain of an edge in one predictor call.
     pub strain_limit: f64,
     /// Mass damping where the constraints hold the curve.
     pub damping: f64,
     /// Mass damping where they do not.
     pub loose_damping: f64,
-    /// Price of length, per length. Zero is the pure `∫ κ² ds`.
+    /// Price of length, per length. Zero is the pure objective.
     pub tension: f64,
     /// Length, in units of the control polygon, up to which nothing pulls it back; infinite for no limit at all.
     /// A curve without a control polygon may grow to its first length.
@@ -60,7 +61,14 @@ pub struct CurveSettings {
 impl Default for CurveSettings {
     fn default() -> Self {
         // A circle through both ends of its diameter is π/2 as long as its control polygon; more points need less.
-        Self { strain_limit: 0.5, damping: 0.1, loose_damping: 10.0, tension: 0.0, slack: 1.6 }
+        Self {
+            objective: Objective::ThinPlate,
+            strain_limit: 0.5,
+            damping: 0.1,
+            loose_damping: 10.0,
+            tension: 0.0,
+            slack: 1.6,
+        }
     }
 }
 
@@ -74,13 +82,17 @@ struct Chain {
 impl Chain {
     /// Both neighbours of an inner node.
     fn neighbours(self, node: usize) -> Option<(usize, usize)> {
-        let last = self.count.checked_sub(1)?;
-        match (node == 0, node == last) {
-            (false, false) => Some((node - 1, node + 1)),
-            _ if !self.closed || self.count < 3 => None,
-            (true, _) => Some((last, 1)),
-            (_, true) => Some((node - 1, 0)),
-        }
+        let (before, after) = self.sides(node);
+        before.zip(after)
+    }
+
+    /// The neighbours from behind and ahead, as far as there are any.
+    fn sides(self, node: usize) -> (Option<usize>, Option<usize>) {
+        let joins = self.closed && self.count > 2;
+        let last = self.count.saturating_sub(1);
+        let before = if node > 0 { Some(node - 1) } else { joins.then_some(last) };
+        let after = if node < last { Some(node + 1) } else { joins.then_some(0) };
+        (before, after)
     }
 
     /// Both ends of every edge, in order.
@@ -96,8 +108,8 @@ pub struct CurveSolver {
     chain: Chain,
     fixed: Vec<bool>,
     settings: CurveSettings,
-    /// The first length seen: how long a curve without a control polygon may get.
-    first_length: Option<f64>,
+    /// The first length and radius seen: how long a curve without a control polygon may get, and how large it is.
+    first_size: Option<(f64, f64)>,
     bends: Bends,
     trial: Bends,
     trial_positions: Vec<DVec3>,
@@ -120,14 +132,14 @@ impl CurveSolver {
         check_length(node_count, fixed.len())?;
         let chain = Chain { count: node_count, closed };
         Ok(Self {
-            offsets: System::new(chain, &fixed, 2)?,
-            fields: System::new(chain, &fixed, 1)?,
-            bends: Bends::new(node_count),
-            trial: Bends::new(node_count),
+            offsets: System::new(chain, &fixed, 2, reach(settings.objective))?,
+            fields: System::new(chain, &fixed, 1, reach(Objective::ThinPlate))?,
+            bends: Bends::new(chain, &[]),
+            trial: Bends::new(chain, &[]),
             trial_positions: vec![DVec3::ZERO; node_count],
             gradient: vec![DVec3::ZERO; node_count],
             frames: Frames::default(),
-            first_length: None,
+            first_size: None,
             damping: 1.0,
             quiet_steps: 0,
             chain,
@@ -140,8 +152,8 @@ impl CurveSolver {
     pub fn set_fixed(&mut self, fixed: Vec<bool>) -> Result<(), SolverError> {
         check_length(self.chain.count, fixed.len())?;
         if fixed != self.fixed {
-            self.offsets = System::new(self.chain, &fixed, 2)?;
-            self.fields = System::new(self.chain, &fixed, 1)?;
+            self.offsets = System::new(self.chain, &fixed, 2, reach(self.settings.objective))?;
+            self.fields = System::new(self.chain, &fixed, 1, reach(Objective::ThinPlate))?;
             self.fixed = fixed;
             self.quiet_steps = 0;
         }
@@ -166,7 +178,7 @@ impl CurveSolver {
             // Every control point goes along, and so does the whole curve, exactly.
             field.fill(first);
         } else {
-            self.fields.carry(self.chain, &self.bends, &mut field)?;
+            self.fields.carry(&self.bends, &mut field)?;
         }
         let strain = self.strain(&field);
         let fraction =
@@ -176,31 +188,6 @@ impl CurveSolver {
         }
         self.quiet_steps = 0;
         Ok(Predicted { fraction, strain, iterations: 0, residual: 0.0 })
-    }
-
-    /// One non-linear step. Never raises the energy; a failed search leaves the positions alone.
-    pub fn step(&mut self, positions: &mut [DVec3]) -> Result<StepReport, SolverError> {
-        check_positions(self.chain.count, positions)?;
-        self.measure(positions);
-        let mut report = StepReport {
-            energy_before: self.bends.energy,
-            energy: self.bends.energy,
-            ..StepReport::default()
-        };
-        self.bends.gradient(self.chain, &mut self.gradient);
-        self.frames.transport(self.chain, &self.bends);
-        let radius = half_diagonal(positions);
-        let mu =
-            self.damping * if self.is_loose() { self.settings.loose_damping } else { self.settings.damping };
-        let mass = if radius > 0.0 { mu / (radius * radius * radius * radius) } else { 0.0 };
-        let solved = self.offsets.newton(self.chain, &self.bends, &self.frames, &self.gradient, mass);
-        let Ok(slope) = solved else {
-            self.damping = (self.damping * 10.0).min(1e8);
-            report.damped = true;
-            return Ok(report);
-        };
-        self.advance(positions, slope, &mut report);
-        Ok(report)
     }
 
     /// Measures the curve at these positions; steps and predictions do so themselves.
@@ -229,7 +216,7 @@ impl CurveSolver {
 
     /// Exact `dE/dp` at the newest positions.
     pub fn gradient(&mut self) -> &[DVec3] {
-        self.bends.gradient(self.chain, &mut self.gradient);
+        self.bends.gradient(self.chain, self.bends.character, &mut self.gradient);
         &self.gradient
     }
 
@@ -240,14 +227,24 @@ impl CurveSolver {
     }
 
     fn measure(&mut self, positions: &[DVec3]) {
-        let polygon = self.polygon(positions);
-        let first = *self.first_length.get_or_insert_with(|| {
-            self.chain.edges().map(|(from, to)| positions[from].distance(positions[to])).sum()
+        let character = self.character(positions, self.settings.objective);
+        self.bends.measure(self.chain, positions, character);
+    }
+
+    /// An objective with the numbers that these controls give it.
+    fn character(&mut self, positions: &[DVec3], objective: Objective) -> Character {
+        let (first_length, first_radius) = *self.first_size.get_or_insert_with(|| {
+            let lengths = self.chain.edges().map(|(from, to)| positions[from].distance(positions[to]));
+            (lengths.sum(), half_diagonal(positions))
         });
-        let reference = if polygon > 0.0 { self.settings.slack * polygon } else { first };
+        let CurveSettings { tension, slack, .. } = self.settings;
+        let polygon = self.polygon(positions);
+        let reference = if polygon > 0.0 { slack * polygon } else { first_length };
         let reference = if reference > 0.0 { reference } else { f64::INFINITY };
-        let price = Price { tension: self.settings.tension, reference };
-        self.bends.measure(self.chain, positions, price);
+        let controls = positions.iter().zip(&self.fixed).filter(|(_, fixed)| **fixed);
+        let radius = half_diagonal_of(controls.map(|(position, _)| *position));
+        let radius = if radius > 0.0 { radius } else { first_radius };
+        Character::new(objective, Price::new(objective, tension, reference), radius)
     }
 
     /// Length of the polygon through the fixed nodes.
@@ -263,74 +260,6 @@ impl CurveSolver {
         if self.chain.closed { length + last.distance(first) } else { length }
     }
 
-    /// Line search along the offsets, acceptance, rest.
-    fn advance(&mut self, positions: &mut [DVec3], slope: f64, report: &mut StepReport) {
-        let energy = self.bends.energy;
-        if !(slope < -NOISE * energy) || !slope.is_finite() || !energy.is_finite() {
-            report.damped = !(slope.is_finite() && energy.is_finite());
-            report.at_rest = !report.damped;
-            return;
-        }
-        let moves = self.offsets.displacements(&self.frames, self.chain.count);
-        let mut scale = self.first_scale(&moves);
-        self.quiet_steps = if -slope < REST_DECREASE * energy { self.quiet_steps + 1 } else { 0 };
-        for halvings in 0..=MAX_HALVINGS {
-            for ((trial, &position), &offset) in self.trial_positions.iter_mut().zip(&*positions).zip(&moves)
-            {
-                *trial = position + offset * scale;
-            }
-            self.trial.measure(self.chain, &self.trial_positions, self.bends.price);
-            report.halvings = halvings;
-            if self.trial.energy <= energy + SUFFICIENT * scale * slope {
-                self.accept(positions, &moves, scale, report);
-                report.predicted_decrease = -slope * scale;
-                return;
-            }
-            scale *= 0.5;
-        }
-        self.damping = (self.damping * 10.0).min(1e8);
-        report.damped = true;
-        report.at_rest = self.quiet_steps >= REST_STEPS;
-    }
-
-    fn accept(&mut self, positions: &mut [DVec3], moves: &[DVec3], scale: f64, report: &mut StepReport) {
-        self.damping = (self.damping * 0.2).max(1.0);
-        for (&offset, bend) in moves.iter().zip(&self.bends.nodes) {
-            let distance = scale * offset.length();
-            report.largest_move = report.largest_move.max(distance);
-            report.largest_relative_move = report.largest_relative_move.max(distance / bend.ds);
-        }
-        positions.copy_from_slice(&self.trial_positions);
-        std::mem::swap(&mut self.bends, &mut self.trial);
-        report.energy = self.bends.energy;
-        report.step_scale = scale;
-        let is_small = report.largest_relative_move < REST_MOVE && report.halvings == 0;
-        report.at_rest = is_small || self.quiet_steps >= REST_STEPS;
-    }
-
-    /// Below half a radius of curvature, and no edge sheared by more than one half.
-    fn first_scale(&self, moves: &[DVec3]) -> f64 {
-        let mut worst = 0.5_f64;
-        for (offset, curvature) in moves.iter().zip(&self.bends.curvatures) {
-            worst = worst.max(offset.length() * curvature.length());
-        }
-        0.5 / worst.max(self.strain(moves))
-    }
-
-    /// Largest relative strain of an edge with a free end.
-    fn strain(&self, field: &[DVec3]) -> f64 {
-        let mut worst = 0.0_f64;
-        for (from, to) in self.chain.edges() {
-            if self.fixed[from] && self.fixed[to] {
-                continue;
-            }
-            let floor = 0.1 * self.bends.nodes[from].ds;
-            let length = self.bends.positions[from].distance(self.bends.positions[to]).max(floor);
-            worst = worst.max((field[from] - field[to]).length() / length.max(f64::MIN_POSITIVE));
-        }
-        worst
-    }
-
     /// The displacement of every node: given at moved ones, zero elsewhere.
     fn checked_moves(&self, positions: &[DVec3], moves: &[(u32, DVec3)]) -> Result<Vec<DVec3>, SolverError> {
         let mut field = vec![DVec3::ZERO; self.chain.count];
@@ -341,10 +270,20 @@ impl CurveSolver {
     }
 }
 
+/// How many nodes to either side the rows of an objective reach.
+fn reach(objective: Objective) -> usize {
+    if objective == Objective::Fair { 3 } else { 2 }
+}
+
 fn half_diagonal(positions: &[DVec3]) -> f64 {
-    let low = positions.iter().copied().fold(DVec3::INFINITY, DVec3::min);
-    let high = positions.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
-    if positions.is_empty() { 0.0 } else { 0.5 * (high - low).length() }
+    half_diagonal_of(positions.iter().copied())
+}
+
+/// Zero for no points.
+fn half_diagonal_of(positions: impl Iterator<Item = DVec3>) -> f64 {
+    let box_of = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let (low, high) = positions.fold(box_of, |(low, high), p| (low.min(p), high.max(p)));
+    if low.x <= high.x { 0.5 * (high - low).length() } else { 0.0 }
 }
 
 /// A direct solve can fail on degenerate curves only.

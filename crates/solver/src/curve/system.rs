@@ -1,14 +1,20 @@
 //! The linear systems of a curve: offsets in the normal planes, and scalar fields for the predictor.
 //!
-//! Rows of an inner node, scaled by `√ds`: `Σ_j z_j (R_ij alpha_j - alpha_i) + κ (κ·alpha_i)` with `z = 2 / (r S)`. Frames are
-//! transported along the curve without twist, so that `R_ij` is the identity except where a closed curve meets
-//! itself. Pentadiagonal but for that corner; factorised directly.
+//! Rows of a hinge, scaled by `√ds`: `Σ_j z_j (R_ij alpha_j - alpha_i) + κ (κ·alpha_i)` with `z = 2 / (r S)`; of `fair` the
+//! differences of two neighbours' rows, of `neutral` without the last term. Frames are transported along the curve
+//! without twist, so that `R_ij` is the identity except where a closed curve meets itself. Five diagonals (seven for
+//! `fair`) but for that corner; factorised directly. Entries grow like the fourth (sixth) power of the number of nodes
+//! between two control points: beyond some thousand (some hundred, for `fair`: 1500) digits run out.
 
 use glam::DVec3;
 
-use super::energy::Bends;
+use super::bends::Bends;
+use super::fair::{Link, links};
+use super::hinge::Hinge;
+use super::objective::Character;
 use super::{Chain, Solved};
 use crate::factor::Cholesky;
+use crate::objective::Objective;
 use crate::operator::{FIXED, Unknowns};
 
 /// Relative shift of the diagonal; curves of thousands of nodes are conditioned like `n⁴`, so it has to be tiny.
@@ -69,35 +75,46 @@ pub(super) struct System {
     solution: Vec<f64>,
 }
 
-/// The centre and its two neighbours, with the scalar weights of their rows.
-struct Stencil {
+/// The centre of a hinge and its two neighbours, with the scalar weights of their rows. On the side of a clamp the
+/// centre stands again, without weight.
+struct Stencil<'a> {
+    hinge: &'a Hinge,
     nodes: [usize; 3],
     weights: [f64; 3],
+    /// What the rows are scaled by.
+    root: f64,
 }
 
-impl Stencil {
-    fn new(chain: Chain, bends: &Bends, node: usize) -> Option<Self> {
-        let (before, after) = chain.neighbours(node)?;
-        let bend = &bends.nodes[node];
-        if !bend.is_inner {
+impl<'a> Stencil<'a> {
+    /// Rows scaled by the square root of the hinge's length.
+    fn new(hinge: &'a Hinge) -> Option<Self> {
+        Self::scaled(hinge, hinge.ds.sqrt())
+    }
+
+    fn scaled(hinge: &'a Hinge, root: f64) -> Option<Self> {
+        if !hinge.is_sound {
             return None;
         }
-        let scale = bend.ds.sqrt() / bend.ds;
-        let (behind, ahead) = (scale / bend.r_behind, scale / bend.r_ahead);
-        Some(Self { nodes: [node, before, after], weights: [-(behind + ahead), behind, ahead] })
+        let scale = root / hinge.ds;
+        let weight = |side: Option<usize>, r: f64| if side.is_some() { scale / r } else { 0.0 };
+        let behind = weight(hinge.before, hinge.r_behind);
+        let ahead = weight(hinge.after, hinge.r_ahead);
+        let nodes = [hinge.node, hinge.before.unwrap_or(hinge.node), hinge.after.unwrap_or(hinge.node)];
+        Some(Self { hinge, nodes, weights: [-(behind + ahead), behind, ahead], root })
     }
 }
 
 impl System {
-    #[expect(clippy::cast_possible_truncation, reason = "five entries per node of a curve")]
-    pub(super) fn new(chain: Chain, fixed: &[bool], width: usize) -> Solved<Self> {
+    /// For `width` unknowns at each free node, whose rows reach so many nodes to either side.
+    #[expect(clippy::cast_possible_truncation, reason = "seven blocks per node of a curve")]
+    pub(super) fn new(chain: Chain, fixed: &[bool], width: usize, reach: usize) -> Solved<Self> {
         let unknowns = Unknowns::new(fixed.iter().map(|fixed| !fixed));
         let (mut starts, mut rows) = (vec![0_u32], Vec::new());
         let mut near = Vec::new();
         for &node in &unknowns.nodes {
             near.clear();
             near.push(node as usize);
-            for _ in 0..2 {
+            for _ in 0..reach {
                 for i in 0..near.len() {
                     let node = near[i];
                     let ends = chain.neighbours(node).or_else(|| end_neighbour(chain, node));
@@ -131,28 +148,65 @@ impl System {
         chain: Chain,
         bends: &Bends,
         frames: &Frames,
+        character: Character,
         gradient: &[DVec3],
         mass: f64,
     ) -> Solved<f64> {
         self.values.fill(0.0);
-        for node in 0..chain.count {
-            let Some(stencil) = Stencil::new(chain, bends, node) else { continue };
-            let blocks = offset_blocks(bends, frames, &stencil);
-            self.add_products(&stencil.nodes, &blocks);
+        match character.objective {
+            Objective::ThinPlate => self.bend(bends, frames, 1.0, true),
+            Objective::Neutral => self.bend(bends, frames, 1.0, false),
+            Objective::Fair => {
+                self.bend(bends, frames, character.share, true);
+                self.vary(chain, bends, frames);
+            }
+            Objective::Membrane => {}
         }
-        let pull = bends.price.slope(bends.length);
+        let price = character.price;
+        let pull = price.slope(bends.length);
         if pull > 0.0 {
             self.stretch(chain, bends, frames, pull);
         }
-        self.finish(|node| mass * bends.nodes[node].ds)?;
+        self.finish(|node| mass * bends.ds[node])?;
         let rhs = self.project(frames, gradient, -0.5);
         self.solution.copy_from_slice(&rhs);
         self.cholesky.solve(&mut self.solution);
-        let stiffness = 0.5 * bends.price.curvature(bends.length);
+        let stiffness = 0.5 * price.curvature(bends.length);
         if stiffness > 0.0 {
             self.correct_for_rope(chain, bends, frames, stiffness);
         }
         Ok(-2.0 * crate::cg::dot(&rhs, &self.solution))
+    }
+
+    /// The rows of `∫ κ² ds`, each squared `share` times, with or without the answer of the curvature at the centre itself.
+    fn bend(&mut self, bends: &Bends, frames: &Frames, share: f64, is_whole: bool) {
+        for hinge in &bends.hinges {
+            let root = if share == 1.0 { hinge.ds.sqrt() } else { (share * hinge.ds).sqrt() };
+            let Some(stencil) = Stencil::scaled(hinge, root) else { continue };
+            let blocks = offset_blocks(bends, frames, &stencil, is_whole);
+            self.add_products(&stencil.nodes, &blocks);
+        }
+    }
+
+    /// The rows of `∫ |κ'|² ds`: what the second of two neighbours changes by, less what the first does.
+    fn vary(&mut self, chain: Chain, bends: &Bends, frames: &Frames) {
+        for Link { first, second, ds, .. } in links(chain, &bends.hinges) {
+            let root = 1.0 / ds.sqrt();
+            let rows = |hinge: usize| {
+                let stencil = Stencil::scaled(&bends.hinges[hinge], root)?;
+                let blocks = offset_blocks(bends, frames, &stencil, true);
+                Some((stencil.nodes, blocks))
+            };
+            let (Some((from, from_blocks)), Some((to, to_blocks))) = (rows(first), rows(second)) else {
+                continue;
+            };
+            let carry = frames.relation(bends, from[0], to[0]);
+            let carried = from_blocks.map(|block| negated_product(carry, block));
+            let nodes = [from[0], from[1], from[2], to[0], to[1], to[2]];
+            let [a, b, c] = carried;
+            let [d, e, f] = to_blocks;
+            self.add_products(&nodes, &[a, b, c, d, e, f]);
+        }
     }
 
     /// A vector field seen in the frames of the free nodes.
@@ -198,13 +252,48 @@ impl System {
         moves
     }
 
+    /// Moves that make the curve taut: every edge a spring `|Δ|² / 2r + r / 2`, which is nowhere less than its length and
+    /// equal to it now, so that the full step never makes the curve longer (majorise and minimise).
+    pub(super) fn tighten(
+        &mut self,
+        chain: Chain,
+        bends: &Bends,
+        gradient: &[DVec3],
+        mass: f64,
+    ) -> Solved<Vec<DVec3>> {
+        self.values.fill(0.0);
+        // An edge without length would be a spring without end.
+        let floor = 1e-6 * bends.length / chain.count.max(1) as f64;
+        for (from, to) in chain.edges() {
+            let length = bends.positions[from].distance(bends.positions[to]).max(floor);
+            if length > 0.0 {
+                let root = (0.5 / length).sqrt();
+                self.add_products(&[from, to], &[[[-root, 0.0], [0.0, 0.0]], [[root, 0.0], [0.0, 0.0]]]);
+            }
+        }
+        self.finish(|node| mass * bends.ds[node])?;
+        let free = self.unknowns.len();
+        let mut rhs = vec![0.0; 3 * free];
+        for (unknown, &node) in self.unknowns.nodes.iter().enumerate() {
+            for coordinate in 0..3 {
+                rhs[coordinate * free + unknown] = -0.5 * gradient[node as usize][coordinate];
+            }
+        }
+        self.cholesky.solve(&mut rhs);
+        let mut moves = vec![DVec3::ZERO; chain.count];
+        for (unknown, &node) in self.unknowns.nodes.iter().enumerate() {
+            moves[node as usize] = DVec3::new(rhs[unknown], rhs[free + unknown], rhs[2 * free + unknown]);
+        }
+        Ok(moves)
+    }
+
     /// Fills the free entries of `field` from its fixed ones.
-    pub(super) fn carry(&mut self, chain: Chain, bends: &Bends, field: &mut [DVec3]) -> Solved<()> {
+    pub(super) fn carry(&mut self, bends: &Bends, field: &mut [DVec3]) -> Solved<()> {
         self.values.fill(0.0);
         let free = self.unknowns.len();
         let mut rhs = vec![0.0; 3 * free];
-        for node in 0..chain.count {
-            let Some(stencil) = Stencil::new(chain, bends, node) else { continue };
+        for hinge in &bends.hinges {
+            let Some(stencil) = Stencil::new(hinge) else { continue };
             let blocks = stencil.weights.map(|weight| [[weight, 0.0], [0.0, 0.0]]);
             self.add_products(&stencil.nodes, &blocks);
             let known = stencil.nodes.iter().zip(stencil.weights);
@@ -280,18 +369,29 @@ fn end_neighbour(chain: Chain, node: usize) -> Option<(usize, usize)> {
     (other < chain.count).then_some((other, other))
 }
 
-/// The 2 × 2 blocks of a stencil: transported neighbours, and the centre with its `κ κᵀ`.
-fn offset_blocks(bends: &Bends, frames: &Frames, stencil: &Stencil) -> [[[f64; 2]; 2]; 3] {
+/// The 2 × 2 blocks of a stencil: transported neighbours, and the centre with its `κ κᵀ` if that is wanted.
+fn offset_blocks(
+    bends: &Bends,
+    frames: &Frames,
+    stencil: &Stencil<'_>,
+    is_whole: bool,
+) -> [[[f64; 2]; 2]; 3] {
     let [centre, before, after] = stencil.nodes;
     let scaled =
         |from: usize, weight: f64| frames.relation(bends, from, centre).map(|row| row.map(|x| x * weight));
-    let kappa = frames.axes[centre].map(|axis| axis.dot(bends.curvatures[centre]));
-    let root = bends.nodes[centre].ds.sqrt();
     let mut own = [[stencil.weights[0], 0.0], [0.0, stencil.weights[0]]];
-    for i in 0..2 {
-        for j in 0..2 {
-            own[i][j] += root * kappa[i] * kappa[j];
+    if is_whole {
+        let kappa = frames.axes[centre].map(|axis| axis.dot(stencil.hinge.curvature));
+        for i in 0..2 {
+            for j in 0..2 {
+                own[i][j] += stencil.root * kappa[i] * kappa[j];
+            }
         }
     }
     [own, scaled(before, stencil.weights[1]), scaled(after, stencil.weights[2])]
+}
+
+/// `-A B`.
+fn negated_product(a: [[f64; 2]; 2], b: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
+    a.map(|row| [0, 1].map(|j| -(row[0] * b[0][j] + row[1] * b[1][j])))
 }

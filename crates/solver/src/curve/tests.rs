@@ -1,6 +1,7 @@
 use glam::DVec3;
 
 use super::*;
+use crate::StepReport;
 use crate::workload::Stream;
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
