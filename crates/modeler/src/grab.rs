@@ -40,6 +40,8 @@ pub(crate) struct Grab {
     steps_since_return: u32,
     /// Steps since the hand last moved.
     still: u32,
+    /// Whether it has been given its shapes of before since then.
+    is_home_again: bool,
     centre: DVec3,
     reach: f64,
 }
@@ -71,6 +73,7 @@ impl Grab {
             energy_before: relaxer.energy(),
             steps_since_return,
             still: 0,
+            is_home_again: false,
             centre,
             reach,
         })
@@ -84,15 +87,15 @@ impl Grab {
         self.steps_since_return = self.steps_since_return.saturating_add(1);
         self.still = self.still.saturating_add(1);
         let is_wreck = energy.is_nan() || energy > WRECK_FACTOR * self.energy_before + WRECK_RISE;
-        // Once for each time that the hand comes to rest: at the step that runs out of patience.
-        let is_lost = self.still == PATIENCE
-            && self.is_home(model)
-            && (energy - self.energy_before).abs() > LOST * self.energy_before;
+        let is_other = (energy - self.energy_before).abs() > LOST * self.energy_before;
+        // Once for each time that the hand comes to rest.
+        let is_lost = is_other && self.still >= PATIENCE && !self.is_home_again && self.is_home(model);
         let is_due = self.steps_since_return >= PATIENCE || is_over;
         if !(is_lost || is_wreck && is_due) {
             return false;
         }
         self.steps_since_return = 0;
+        self.is_home_again = is_lost;
         model.curves.clone_from(&self.home.curves);
         model.surfaces.clone_from(&self.home.surfaces);
         true
@@ -123,7 +126,7 @@ impl Grab {
         *at = to;
         self.has_moved |= moved > 0.0;
         if moved > 0.0 {
-            self.still = 0;
+            (self.still, self.is_home_again) = (0, false);
         }
         Some(moved)
     }

@@ -31,7 +31,19 @@ pub fn face_normal(mesh: &Mesh, positions: &[DVec3], f: FaceId) -> DVec3 {
 #[inline]
 #[must_use]
 pub fn face_area(mesh: &Mesh, positions: &[DVec3], f: FaceId) -> f64 {
-    0.5 * face_normal(mesh, positions, f).length()
+    0.5 * length(face_normal(mesh, positions, f))
+}
+
+/// The length of a vector whose square may leave the range of numbers, as that of a cross product of lengths of 1e150
+/// or of 1e-150 does.
+#[inline]
+fn length(v: DVec3) -> f64 {
+    let squared = v.length_squared();
+    if (1e-280..1e300).contains(&squared) {
+        return squared.sqrt();
+    }
+    let largest = v.abs().max_element();
+    if largest > 0.0 && largest.is_finite() { largest * (v / largest).length() } else { squared.sqrt() }
 }
 
 /// The area of all faces.
@@ -51,7 +63,7 @@ pub fn bounding_box(mesh: &Mesh, positions: &[DVec3]) -> Option<(DVec3, DVec3)> 
 /// The angle between two vectors in [0, π], exact near 0 and π alike.
 #[inline]
 pub(crate) fn angle_between(a: DVec3, b: DVec3) -> f64 {
-    libm::atan2(a.cross(b).length(), a.dot(b))
+    libm::atan2(length(a.cross(b)), a.dot(b))
 }
 
 /// The angle of a face at the corner from which `h` starts.
