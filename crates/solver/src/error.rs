@@ -21,6 +21,9 @@ pub enum SolverError {
     /// A position or displacement of this node is NaN, infinite, or beyond 1e50 in size: clamp the input.
     #[error("the position or displacement of node {0} is not a reasonable number")]
     NotFinite(u32),
+    /// The whole shape is smaller than 1e-50 (and yet no point): its curvatures have no numbers. Scale it.
+    #[error("the shape is too small for its curvatures to be numbers")]
+    TooSmall,
     /// A move names a node that does not exist.
     #[error("node {0} does not exist")]
     UnknownNode(u32),
@@ -45,13 +48,19 @@ pub(crate) fn check_finite(node: u32, vector: DVec3) -> Result<(), SolverError> 
     if is_good { Ok(()) } else { Err(SolverError::NotFinite(node)) }
 }
 
+/// Smallest extent of a shape that is no point: the fourth power of its curvature still fits an `f64`.
+const SMALLEST: f64 = 1e-50;
+
 /// Refuses positions of the wrong number or without sense.
 pub(crate) fn check_positions(expected: usize, positions: &[DVec3]) -> Result<(), SolverError> {
     check_length(expected, positions.len())?;
+    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for (node, &position) in (0_u32..).zip(positions) {
         check_finite(node, position)?;
+        (low, high) = (low.min(position), high.max(position));
     }
-    Ok(())
+    let extent = (high - low).max_element();
+    if extent > 0.0 && extent < SMALLEST { Err(SolverError::TooSmall) } else { Ok(()) }
 }
 
 /// Refuses arrays that do not have one entry per node.

@@ -11,6 +11,7 @@ use crate::barrier;
 use crate::batch::Batch;
 use crate::energy::fair::Variation;
 use crate::energy::thin_plate::{self, Demand};
+use crate::error::check_positions;
 use crate::fit::{self, CarefulFit, Curvature, Fit, Kind};
 use crate::gradient::Backward;
 use crate::lanes::{Pair, Real};
@@ -150,6 +151,10 @@ impl Fits {
             }
         }
         self.energy = self.nodes.iter().map(|node| node.energy).sum::<f64>() + others;
+        // A ring without sense counts for nothing; that must not pass for a shape without energy.
+        if check_positions(rings.len(), positions).is_err() {
+            self.energy = f64::NAN;
+        }
     }
 
     /// Forgets the positions, so that the next call fits whatever they are.
