@@ -2,11 +2,12 @@
 //! becomes f32.
 
 use crate::model::Model;
+use crate::region;
 use crate::relax::Relaxer;
 use crate::shape::SurfaceShape;
 use ductile_spec::{
-    CurveId, CurveRole, CurveSpan, PointEntry, PointId, PointRole, Structure, SurfaceSpan, SurfaceSummary,
-    VERTEX_FLOATS,
+    CurveId, CurveRole, CurveSpan, NO_REGION, PointEntry, PointId, PointRole, RegionEntry, Structure,
+    SurfaceId, SurfaceSpan, SurfaceSummary, VERTEX_FLOATS,
 };
 use glam::DVec3;
 
@@ -60,6 +61,7 @@ impl Frame {
             let vertex_count = count(bound.vertices().len());
             let index_count = count(self.indices.len()) - first_index;
             let summary = summarise(shape);
+            divide(&mut structure, *id, shape, model);
             structure.surfaces.push(SurfaceSpan {
                 id: *id,
                 first_vertex,
@@ -88,8 +90,27 @@ impl Frame {
             .keys()
             .map(|id| PointEntry { id: *id, role: point_role(model, *id) })
             .collect();
+        if structure.regions.is_empty() {
+            structure.region_of_triangle.clear();
+        }
         self.structure = structure;
     }
+}
+
+/// Says which triangle belongs to which region, where there are several.
+fn divide(structure: &mut Structure, id: SurfaceId, shape: &SurfaceShape, model: &Model) {
+    let labels = ductile_mesh::regions(&shape.mesh);
+    let first = structure.regions.len();
+    let room = usize::from(NO_REGION).saturating_sub(first);
+    if labels.count() < 2 || labels.count() > room {
+        structure.region_of_triangle.extend(shape.mesh.faces().map(|_| NO_REGION));
+        return;
+    }
+    let regions = model.document.surfaces.get(&id).map_or(&[][..], |surface| &surface.regions);
+    let own = region::own_objectives(shape, &labels, regions);
+    structure.regions.extend(own.into_iter().map(|objective| RegionEntry { surface: id, objective }));
+    let name = |f| u16::try_from(first + labels.of(f)).unwrap_or(NO_REGION);
+    structure.region_of_triangle.extend(shape.mesh.faces().map(name));
 }
 
 /// Names a structure: what it is made of, in which connectivity and with which roles.
@@ -102,8 +123,22 @@ fn key(model: &Model) -> Vec<(u32, u64)> {
         .surfaces
         .iter()
         .flat_map(|(id, s)| s.skeleton.curves.iter().map(|e| (id.0, u64::from(e.curve.0))));
+    let chosen = model.document.surfaces.values().flat_map(|s| {
+        s.regions
+            .iter()
+            .map(|r| (r.from.0, (u64::from(r.curve.0) << 8) | r.side as u64 | ((r.objective as u64) << 1)))
+    });
     let mark = [(u32::MAX, u64::MAX)];
-    surfaces.chain(mark).chain(curves).chain(mark).chain(points).chain(mark).chain(uses).collect()
+    surfaces
+        .chain(mark)
+        .chain(curves)
+        .chain(mark)
+        .chain(points)
+        .chain(mark)
+        .chain(uses)
+        .chain(mark)
+        .chain(chosen)
+        .collect()
 }
 
 fn summarise(shape: &SurfaceShape) -> SurfaceSummary {

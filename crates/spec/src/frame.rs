@@ -9,6 +9,7 @@
 //! How many there are of each and what they belong to is the [`Structure`]; it travels, together with the
 //! triangle indices (a `Uint32Array`), only when its version changes.
 
+use crate::document::Objective;
 use crate::id::{CurveId, PointId, SurfaceId};
 use serde::{Deserialize, Serialize};
 
@@ -64,6 +65,22 @@ pub struct Structure {
     pub curves: Vec<CurveSpan>,
     /// The control points, in order.
     pub points: Vec<PointEntry>,
+    /// The regions of surfaces that their curves cut in pieces.
+    pub regions: Vec<RegionEntry>,
+    /// Per triangle its place in `regions`; empty when there are none. Surfaces in one piece have [`NO_REGION`].
+    pub region_of_triangle: Vec<u16>,
+}
+
+/// Stands for no region.
+pub const NO_REGION: u16 = u16::MAX;
+
+/// A region of a surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RegionEntry {
+    /// Of which surface.
+    pub surface: SurfaceId,
+    /// What it minimises, if it has a choice of its own.
+    pub objective: Option<Objective>,
 }
 
 /// The part of a frame that belongs to a surface.

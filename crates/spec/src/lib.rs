@@ -21,8 +21,8 @@ pub use document::{
 pub use edit::{Edit, GrabTarget, ObjectiveOf, Through};
 pub use example::Example;
 pub use frame::{
-    CurveRole, CurveSpan, Figures, FrameHeader, PointEntry, PointRole, Structure, SurfaceSpan,
-    SurfaceSummary, VERTEX_FLOATS, vertex_layout,
+    CurveRole, CurveSpan, Figures, FrameHeader, NO_REGION, PointEntry, PointRole, RegionEntry, Structure,
+    SurfaceSpan, SurfaceSummary, VERTEX_FLOATS, vertex_layout,
 };
 pub use id::{CurveId, PointId, SurfaceId};
 pub use protocol::{

@@ -5,7 +5,8 @@
 //! indices against the vertices, numbers against NaN. A frame that fails leaves the scene as it was.
 
 use ductile_spec::{
-    CurveId, CurveSpan, FrameHeader, PointEntry, PointId, Structure, SurfaceSpan, VERTEX_FLOATS,
+    CurveId, CurveSpan, FrameHeader, PointEntry, PointId, RegionEntry, Structure, SurfaceId, SurfaceSpan,
+    VERTEX_FLOATS,
 };
 use glam::Vec3;
 
@@ -175,6 +176,18 @@ impl Scene {
     /// The unit normal of a vertex.
     pub(crate) fn vertex_normal(&self, index: u32) -> Vec3 {
         vector(&self.floats, index as usize * VERTEX_FLOATS + 3)
+    }
+
+    /// The region of a surface nearest to a place, by the middle of its triangles; none if the surface is in one piece.
+    #[must_use]
+    pub fn region_at(&self, surface: SurfaceId, at: Vec3) -> Option<RegionEntry> {
+        let (span, triangles, _) = self.surfaces().find(|(span, ..)| span.id == surface)?;
+        let first = span.first_index as usize / 3;
+        let middle = |t: &[u32]| t.iter().map(|v| self.vertex(*v)).sum::<Vec3>() / 3.0;
+        let distances = triangles.chunks_exact(3).map(|t| middle(t).distance_squared(at));
+        let (nearest, _) = distances.enumerate().min_by(|(_, a), (_, b)| a.total_cmp(b))?;
+        let region = self.structure.region_of_triangle.get(first + nearest)?;
+        self.structure.regions.get(usize::from(*region)).copied().filter(|entry| entry.surface == surface)
     }
 
     /// The triangles of a surface with a ball around them; none before the first frame.

@@ -11,6 +11,7 @@ fn structure() -> Structure {
         surfaces: Vec::new(),
         curves: vec![curve(1, true), curve(2, true), curve(3, false)],
         points: [1, 2, 3].map(|id| PointEntry { id: PointId(id), role: PointRole::Curve }).to_vec(),
+        ..Structure::default()
     }
 }
 

@@ -257,7 +257,13 @@ impl Page {
         for act in acts {
             match act {
                 Act::Edit(edit) => self.request(Request::Edit(edit)),
-                Act::Select(selection) => self.selection = selection,
+                Act::Select(selection) => {
+                    self.selection = selection;
+                    self.picked = match self.hand.hover {
+                        Some(Hit::Surface { id, at, .. }) => Some((id, at)),
+                        _ => None,
+                    };
+                }
                 Act::Say(text) => self.notices.refusal(&text),
                 Act::Leave => self.tools.choose(ToolKind::Shape),
             }

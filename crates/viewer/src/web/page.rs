@@ -8,13 +8,14 @@ use super::panel::Panel;
 use super::port::Port;
 use super::settings::Settings;
 use super::stage::Stage;
-use super::{canvas, commands, fields, files, inspect, keyboard, link, opening, stage};
+use super::{canvas, commands, fields, files, inspect, keyboard, link, objectives, opening, stage};
 use crate::limit::Limit;
 use crate::memory::Memory;
 use crate::schedule::Schedule;
 use crate::tool::{Selection, Toolbox};
 use crate::{Camera, Scene};
-use ductile_spec::{Committed, Document, Request};
+use ductile_spec::{Committed, Document, Request, SurfaceId};
+use glam::Vec3;
 use std::cell::RefCell;
 use std::collections::VecDeque;
 use wasm_bindgen::JsValue;
@@ -38,6 +39,8 @@ pub(crate) struct Page {
     pub(crate) settings: Settings,
     pub(crate) tools: Toolbox,
     pub(crate) selection: Selection,
+    /// Which surface was clicked last, and where: the place names a region of it.
+    pub(crate) picked: Option<(SurfaceId, Vec3)>,
     pub(crate) hand: Hand,
     pub(crate) schedule: Schedule,
     pub(crate) port: Port,
@@ -99,6 +102,7 @@ pub(crate) fn start() {
         settings: Settings::load(),
         tools: Toolbox::default(),
         selection: Selection::None,
+        picked: None,
         hand: Hand::default(),
         schedule: Schedule::default(),
         port: Port::default(),
@@ -125,6 +129,7 @@ pub(crate) fn start() {
     keyboard::listen();
     canvas::listen();
     fields::listen();
+    objectives::listen();
     files::listen();
     link::listen();
     stage::listen();

@@ -228,6 +228,7 @@ impl Page {
             dom::append(&facts, [&dom::create_with("dt", "", name), &dom::create_with("dd", "", &value)]);
         }
         self.show_fields();
+        self.show_objectives();
     }
 
     fn facts(&self, role: Option<PointRole>) -> Vec<(&'static str, String)> {
