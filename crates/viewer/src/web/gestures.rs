@@ -182,6 +182,10 @@ impl Page {
             return;
         }
         let hit = self.thing_at(at);
+        self.picked = match hit {
+            Some(Hit::Surface { id, at, .. }) => Some((id, at)),
+            _ => None,
+        };
         let aim =
             Aim { hit: hit.as_ref(), place: self.place_on_plane(at, modifiers), corner: self.corner_at(at) };
         let around = Surroundings { structure: &self.scene.structure, forward: self.camera.forward() };
@@ -257,13 +261,7 @@ impl Page {
         for act in acts {
             match act {
                 Act::Edit(edit) => self.request(Request::Edit(edit)),
-                Act::Select(selection) => {
-                    self.selection = selection;
-                    self.picked = match self.hand.hover {
-                        Some(Hit::Surface { id, at, .. }) => Some((id, at)),
-                        _ => None,
-                    };
-                }
+                Act::Select(selection) => self.selection = selection,
                 Act::Say(text) => self.notices.refusal(&text),
                 Act::Leave => self.tools.choose(ToolKind::Shape),
             }
