@@ -189,8 +189,8 @@ impl Fits {
         if !is_ordinary {
             return false;
         }
-        let weight = Pair::gather(|lane| sweep.goals.price(batch.nodes[lane] as usize).plate);
-        let shown = Pair::gather(|lane| sweep.goals.price(batch.nodes[lane] as usize).rows());
+        let one = Pair::splat(1.0);
+        let (weight, shown) = if sweep.goals.is_plate() { (one, one) } else { prices(sweep.goals, batch.nodes) };
         let energy = thin_plate::value(&fit) * shown;
         for lane in 0..batch.count {
             let node = batch.nodes[lane] as usize;
@@ -305,6 +305,12 @@ impl Fits {
         }
         self.gradient[node as usize] -= sum;
     }
+}
+
+/// How much the plate of two nodes weighs, in the gradient and in the figure that is shown.
+fn prices(goals: &Goals, nodes: [u32; 2]) -> (Pair, Pair) {
+    let prices = nodes.map(|node| goals.price(node as usize));
+    (Pair::new(prices.map(|price| price.plate)), Pair::new(prices.map(|price| price.rows())))
 }
 
 /// Thin plate and barrier of a fit made with care.
