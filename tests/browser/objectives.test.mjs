@@ -100,7 +100,7 @@ test("a curve and a surface follow the document until they choose", async () => 
     const before = await atRest(page);
     await page.locator('#scene-list [data-subject="curve 1"]').click();
     await shows(page, "objective", "");
-    assert.equal(await page.locator("#objective option").first().textContent(), "Thin plate (as the document)");
+    assert.equal(await page.locator("#objective option").first().textContent(), "As the document");
     await page.locator("#objective").selectOption({ label: "Neutral" });
     await atRest(page, (state) => state.document !== before.document);
     assert.equal((await documentOf(page)).curves[1].objective, "neutral");

@@ -190,7 +190,8 @@ impl Fits {
             return false;
         }
         let one = Pair::splat(1.0);
-        let (weight, shown) = if sweep.goals.is_plate() { (one, one) } else { prices(sweep.goals, batch.nodes) };
+        let (weight, shown) =
+            if sweep.goals.is_plate() { (one, one) } else { prices(sweep.goals, batch.nodes) };
         let energy = thin_plate::value(&fit) * shown;
         for lane in 0..batch.count {
             let node = batch.nodes[lane] as usize;

@@ -65,16 +65,15 @@ impl Page {
             Selection::Point(_) => (None, false),
         };
         dom::show(&dom::element("objective-properties"), !matches!(self.selection, Selection::Point(_)));
-        let inherited = is_inherited.then(|| format!("{} (as the document)", document.objective.label()));
-        show_choice(OWN, own, inherited.as_deref());
+        let inherited = is_inherited.then_some("As the document");
+        show_choice(OWN, own, inherited);
         let region = match self.selection {
             Selection::Surface(id) => self.picked_place(id).and_then(|at| self.scene.region_at(id, at)),
             _ => None,
         };
         dom::show(&dom::element("region-properties"), region.is_some());
-        if let (Some(region), Selection::Surface(id)) = (region, self.selection) {
-            let inherited = format!("{} (as the surface)", document.objective_of_surface(id).label());
-            show_choice(REGION, region.objective, Some(&inherited));
+        if let Some(region) = region {
+            show_choice(REGION, region.objective, Some("As the surface"));
         }
     }
 }
