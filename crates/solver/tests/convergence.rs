@@ -157,7 +157,8 @@ fn converges(name: &str, levels: [u32; 4], sample: fn(u32) -> Sample, pushed: fn
     for level in levels {
         let h = sample(level).spacing();
         let error = sample(level).error();
-        let squares: f64 = (0..SEEDS).map(|seed| pushed(level).jittered(seed).error().powi(2)).sum();
+        let errors = (0..SEEDS).map(|seed| pushed(level).jittered(seed).error());
+        let squares: f64 = errors.map(|error| error * error).sum();
         let mean = (squares / SEEDS as f64).sqrt();
         let nodes = sample(level).shape.positions.len();
         println!("{name}: {nodes} nodes, h {h:.4}: {:+.5} %, jittered {:.5} %", 100.0 * error, 100.0 * mean);
