@@ -1,7 +1,7 @@
-//! Control curves through the one door: what they minimise.
+//! Control curves through the one door: what they minimise, and where they are told to point.
 
 use acceptance::Bench;
-use ductile_spec::{CurveId, Edit, Example, Objective, ObjectiveOf, Request};
+use ductile_spec::{CurveId, Edit, Example, Objective, ObjectiveOf, PointId, Request, Through};
 use glam::DVec3;
 
 const CURVE: CurveId = CurveId(1);
@@ -40,4 +40,69 @@ fn an_objective_makes_the_same_curve_by_an_act_as_from_a_file() {
         bench.rest(300);
         assert!((9.0e-3..=1.05e-2).contains(&off_circle(&bench)), "{objective:?}, undone");
     }
+}
+
+/// The direction in which the samples leave a control point, of second order in their spacing.
+fn leaving(bench: &Bench, point: PointId) -> DVec3 {
+    let curve = &bench.modeler.model().curves[&CURVE];
+    let sample = curve.sample_of(point).unwrap();
+    let at = |k: usize| curve.nodes[(sample + k) % curve.nodes.len()] - curve.nodes[sample];
+    let (short, long) = (at(1), at(2));
+    (short * 4.0 - long).normalize()
+}
+
+#[test]
+fn a_tangent_is_met_survives_the_file_and_can_be_undone_and_freed() {
+    let mut bench = Bench::with(Example::Disc);
+    bench.rest(300);
+    let (point, flat) = (PointId(1), leaving(&bench, PointId(1)));
+    let wanted = DVec3::new(-1.0, 1.0, 1.0);
+    bench.edit(Edit::Tangent { curve: CURVE, point, direction: Some(wanted) });
+    bench.rest(300);
+    assert!(leaving(&bench, point).angle_between(wanted) < 0.02, "{}", leaving(&bench, point));
+    // The surface follows its boundary out of the plane.
+    assert!(nodes(&bench).iter().any(|p| p.z > 0.05));
+    let mut opened = Bench::new();
+    opened.accept(Request::OpenText { text: bench.document.clone() });
+    opened.rest(300);
+    assert!(leaving(&opened, point).angle_between(wanted) < 0.02);
+    bench.edit(Edit::Tangent { curve: CURVE, point, direction: None });
+    bench.rest(300);
+    assert!(leaving(&bench, point).angle_between(flat) < 1e-3);
+    bench.accept(Request::Undo);
+    bench.rest(300);
+    assert!(leaving(&bench, point).angle_between(wanted) < 0.02);
+}
+
+#[test]
+fn an_open_curve_takes_end_tangents_and_forgets_them_with_their_point() {
+    let mut bench = Bench::new();
+    let places = [-1.0, 0.0, 1.0].map(|x| Through::Place(DVec3::X * x));
+    bench.edit(Edit::Curve { through: places.to_vec(), closed: false });
+    bench.edit(Edit::Tangent { curve: CURVE, point: PointId(1), direction: Some(DVec3::Y) });
+    bench.edit(Edit::Tangent { curve: CURVE, point: PointId(2), direction: Some(DVec3::X) });
+    bench.rest(300);
+    assert!(leaving(&bench, PointId(1)).angle_between(DVec3::Y) < 0.05);
+    bench.edit(Edit::Release { point: PointId(2) });
+    bench.rest(300);
+    let tangents = bench.document().curves[&CURVE].tangents.clone();
+    assert_eq!(tangents.into_iter().collect::<Vec<_>>(), [(PointId(1), DVec3::Y)]);
+}
+
+#[test]
+fn tangents_that_are_none_are_refused_and_change_nothing() {
+    let mut bench = Bench::with(Example::Disc);
+    bench.rest(300);
+    let (before, places) = (bench.document.clone(), nodes(&bench));
+    for (curve, point, direction) in [
+        (CURVE, PointId(1), DVec3::ZERO),
+        (CURVE, PointId(1), DVec3::NAN),
+        (CURVE, PointId(77), DVec3::X),
+        (CurveId(9), PointId(1), DVec3::X),
+    ] {
+        let reply = bench.send(Request::Edit(Edit::Tangent { curve, point, direction: Some(direction) }));
+        assert!(reply.refused.is_some(), "{curve} {point} {direction}");
+    }
+    assert_eq!(bench.document, before);
+    assert_eq!(nodes(&bench), places);
 }

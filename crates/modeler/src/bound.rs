@@ -2,11 +2,11 @@
 
 use crate::error::ModelError;
 use crate::model::Model;
-use crate::region::{self, Choice};
+use crate::region::{self, Choice, solver_objective};
 use crate::shape::{CurveShape, SurfaceShape};
 use ductile_mesh::VertexId;
 use ductile_solver::{CurveSettings, CurveSolver, Predicted, Rings, Settings, SolverError, SurfaceSolver};
-use ductile_spec::{CurveId, Objective, SurfaceId};
+use ductile_spec::{CurveId, Document, Objective, PointId, SurfaceId};
 use glam::DVec3;
 use std::collections::BTreeMap;
 
@@ -217,16 +217,6 @@ impl BoundSurface {
     }
 }
 
-/// An objective of the document in the solver's words.
-pub(crate) fn solvers_word(objective: Objective) -> ductile_solver::Objective {
-    match objective {
-        Objective::ThinPlate => ductile_solver::Objective::ThinPlate,
-        Objective::Fair => ductile_solver::Objective::Fair,
-        Objective::Neutral => ductile_solver::Objective::Neutral,
-        Objective::Membrane => ductile_solver::Objective::Membrane,
-    }
-}
-
 /// A curve solver for one revision of a curve.
 #[derive(Clone, Debug)]
 pub(crate) struct BoundCurve {
@@ -234,27 +224,41 @@ pub(crate) struct BoundCurve {
     revision: u64,
     /// What it minimises.
     objective: Objective,
+    /// Its prescribed directions, by sample.
+    tangents: Vec<(u32, DVec3)>,
     /// The solver.
     solver: CurveSolver,
 }
 
+/// The prescribed directions of a curve, by sample.
+fn tangents(document: &Document, id: CurveId, shape: &CurveShape) -> Vec<(u32, DVec3)> {
+    let given = document.curves.get(&id).map(|curve| &curve.tangents);
+    let at = |point: &PointId| given.and_then(|given| given.get(point)).copied();
+    shape.controls.iter().filter_map(|(sample, point)| Some((*sample, at(point)?))).collect()
+}
+
 impl BoundCurve {
-    /// Sets up the solver for a curve as it is now.
-    pub(crate) fn new(id: CurveId, shape: &CurveShape, objective: Objective) -> Result<Self, ModelError> {
+    /// Sets up the solver for a curve as it is now, with what the document says of it.
+    pub(crate) fn new(document: &Document, id: CurveId, shape: &CurveShape) -> Result<Self, ModelError> {
         let mut fixed = vec![false; shape.nodes.len()];
         for (sample, _) in &shape.controls {
             fixed[*sample as usize] = true;
         }
+        let objective = document.objective_of_curve(id);
+        let tangents = tangents(document, id, shape);
         let mut settings = CurveSettings::default();
-        settings.objective = solvers_word(objective);
-        let solver = CurveSolver::new(shape.nodes.len(), shape.closed, fixed, settings)
-            .map_err(|reason| ModelError::Unsolvable { what: id.to_string(), reason })?;
-        Ok(Self { revision: shape.revision, objective, solver })
+        settings.objective = solver_objective(objective);
+        let fail = |reason| ModelError::Unsolvable { what: id.to_string(), reason };
+        let mut solver = CurveSolver::new(shape.nodes.len(), shape.closed, fixed, settings).map_err(fail)?;
+        solver.set_tangents(&tangents).map_err(fail)?;
+        Ok(Self { revision: shape.revision, objective, tangents, solver })
     }
 
-    /// Whether it is for this sampling and this objective.
-    pub(crate) fn is_for(&self, shape: &CurveShape, objective: Objective) -> bool {
-        self.revision == shape.revision && self.objective == objective
+    /// Whether it is for this sampling, and for what the document says now.
+    pub(crate) fn is_for(&self, document: &Document, id: CurveId, shape: &CurveShape) -> bool {
+        self.revision == shape.revision
+            && self.objective == document.objective_of_curve(id)
+            && self.tangents == tangents(document, id, shape)
     }
 
     /// Carries the controls and steps once. Returns whether the controls are met and whether the curve rests.

@@ -36,7 +36,9 @@ pub(crate) fn build_curve(
         let (from, to) = (corners[k], corners[(k + 1) % count]);
         let edges = edges_of_stretch(document, id, k, (to - from).length() / spacing);
         shape.controls.push((count_u32(shape.nodes.len()), curve.through[k]));
-        let tangent = |i: usize| tangent(&corners, i, curve.closed);
+        let given =
+            |i: usize| curve.tangents.get(&curve.through[i]).map(|direction| direction.normalize_or_zero());
+        let tangent = |i: usize| given(i).unwrap_or_else(|| tangent(&corners, i, curve.closed));
         let (leaving, arriving) = (tangent(k), tangent((k + 1) % count));
         shape.nodes.extend((0..edges).map(|j| hermite(from, to, leaving, arriving, j as f64 / edges as f64)));
     }
@@ -44,7 +46,7 @@ pub(crate) fn build_curve(
         shape.controls.push((count_u32(shape.nodes.len()), curve.through[count - 1]));
         shape.nodes.push(corners[count - 1]);
     }
-    let mut bound = BoundCurve::new(id, &shape, document.objective_of_curve(id))?;
+    let mut bound = BoundCurve::new(document, id, &shape)?;
     for round in 0..CURVE_STEPS {
         let (_, rests) = bound
             .relax(&mut shape.nodes, &Motion::default())

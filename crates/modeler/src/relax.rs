@@ -115,8 +115,9 @@ impl Relaxer {
     fn rebind(&mut self, model: &Model) {
         self.surfaces
             .retain(|id, bound| model.surfaces.get(id).is_some_and(|s| s.revision == bound.revision));
-        let objective = |id| model.document.objective_of_curve(id);
-        self.curves.retain(|id, bound| model.curves.get(id).is_some_and(|c| bound.is_for(c, objective(*id))));
+        self.curves.retain(|id, bound| {
+            model.curves.get(id).is_some_and(|shape| bound.is_for(&model.document, *id, shape))
+        });
         self.states.retain(|id, _| model.surfaces.contains_key(id));
         self.curves_at_rest.retain(|id, _| model.curves.contains_key(id));
         for (id, shape) in &model.surfaces {
@@ -139,7 +140,7 @@ impl Relaxer {
         for (id, shape) in &model.curves {
             if !self.curves.contains_key(id) {
                 self.curves_at_rest.remove(id);
-                match BoundCurve::new(*id, shape, objective(*id)) {
+                match BoundCurve::new(&model.document, *id, shape) {
                     Ok(bound) => drop(self.curves.insert(*id, bound)),
                     Err(_) => self.rescues = self.rescues.saturating_add(1),
                 }

@@ -25,6 +25,8 @@ mod resample;
 mod step;
 mod system;
 
+use std::collections::BTreeMap;
+
 use glam::DVec3;
 
 use crate::error::{SolverError, check_length, check_positions};
@@ -107,6 +109,8 @@ impl Chain {
 pub struct CurveSolver {
     chain: Chain,
     fixed: Vec<bool>,
+    /// Prescribed unit tangents, by fixed node in ascending order.
+    given: Vec<(usize, DVec3)>,
     settings: CurveSettings,
     /// The first length and radius seen: how long a curve without a control polygon may get, and how large it is.
     first_size: Option<(f64, f64)>,
@@ -144,6 +148,7 @@ impl CurveSolver {
             quiet_steps: 0,
             chain,
             fixed,
+            given: Vec::new(),
             settings,
         })
     }
@@ -156,8 +161,55 @@ impl CurveSolver {
             self.fields = System::new(self.chain, &fixed, 1, reach(Objective::ThinPlate))?;
             self.fixed = fixed;
             self.quiet_steps = 0;
+            let mut given = std::mem::take(&mut self.given);
+            given.retain(|(node, _)| self.fixed[*node]);
+            self.clamp(given);
         }
         Ok(())
+    }
+
+    /// Prescribes the direction of the curve at fixed nodes, along the order of the nodes; at all others it is free.
+    ///
+    /// A direction is part of what is minimised (see `hinge`), so it is met in every state: the curve leaves the node, and
+    /// arrives at it, along it, and [`Self::tangents`] gives it back. Curvature may jump there, except under `fair`.
+    /// Where a node occurs twice the last direction counts. Any length but zero will do.
+    ///
+    /// ```
+    /// use ductile_solver::{CurveSettings, CurveSolver};
+    /// use glam::DVec3;
+    /// let ends = vec![true, false, false, false, true];
+    /// let mut solver = CurveSolver::new(5, false, ends, CurveSettings::default()).unwrap();
+    /// solver.set_tangents(&[(0, DVec3::Y * 2.0)]).unwrap();
+    /// let mut positions: Vec<DVec3> = (0..5).map(|i| DVec3::X * i as f64).collect();
+    /// solver.step(&mut positions).unwrap();
+    /// assert!(solver.tangents()[0] == DVec3::Y && positions[1].y > 0.0);
+    /// ```
+    ///
+    /// # Errors
+    /// [`SolverError::UnknownNode`], [`SolverError::NotFixed`]; [`SolverError::NotFinite`] for a direction that is none.
+    pub fn set_tangents(&mut self, tangents: &[(u32, DVec3)]) -> Result<(), SolverError> {
+        let mut given: BTreeMap<usize, DVec3> = BTreeMap::new();
+        for &(node, direction) in tangents {
+            let fixed = self.fixed.get(node as usize).ok_or(SolverError::UnknownNode(node))?;
+            if !fixed {
+                return Err(SolverError::NotFixed(node));
+            }
+            // Scaled first: the square of what is large or small is not a number of use.
+            let largest = direction.abs().max_element();
+            let unit = (direction / largest).try_normalize().filter(|_| !direction.is_nan());
+            given.insert(node as usize, unit.ok_or(SolverError::NotFinite(node))?);
+        }
+        self.clamp(given.into_iter().collect());
+        Ok(())
+    }
+
+    fn clamp(&mut self, given: Vec<(usize, DVec3)>) {
+        if given != self.given {
+            self.bends = Bends::new(self.chain, &given);
+            self.trial = Bends::new(self.chain, &given);
+            self.given = given;
+            self.quiet_steps = 0;
+        }
     }
 
     /// Carries moved control points by a smooth field; as [`SurfaceSolver::predict`](crate::SurfaceSolver::predict).
@@ -244,7 +296,9 @@ impl CurveSolver {
         let controls = positions.iter().zip(&self.fixed).filter(|(_, fixed)| **fixed);
         let radius = half_diagonal_of(controls.map(|(position, _)| *position));
         let radius = if radius > 0.0 { radius } else { first_radius };
-        Character::new(objective, Price::new(objective, tension, reference), radius)
+        let edges = self.chain.edges().count().max(1) as f64;
+        let spacing = if polygon > 0.0 { polygon } else { first_length } / edges;
+        Character::new(objective, Price::new(objective, tension, reference), radius, spacing)
     }
 
     /// Length of the polygon through the fixed nodes.

@@ -64,7 +64,7 @@ impl Objective {
 }
 
 /// A fair curve through control points, in order.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Curve {
     /// The points that it passes through: at least 2, or 3 if it is closed.
@@ -75,6 +75,9 @@ pub struct Curve {
     /// What it minimises where that differs from the document's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub objective: Option<Objective>,
+    /// The direction in which it passes through some of its points, in its own sense. Any length but zero means the same.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty", deserialize_with = "crate::text::unique")]
+    pub tangents: BTreeMap<PointId, DVec3>,
 }
 
 /// A fair surface under its controls.
@@ -155,7 +158,7 @@ impl Curve {
     /// A curve through these points, without choices of its own.
     #[must_use]
     pub fn new(through: Vec<PointId>, closed: bool) -> Self {
-        Self { through, closed, objective: None }
+        Self { through, closed, objective: None, tangents: BTreeMap::new() }
     }
 }
 

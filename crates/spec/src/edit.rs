@@ -86,6 +86,15 @@ pub enum Edit {
         /// The choice; `None` follows the document (and for the document means the default).
         objective: Option<Objective>,
     },
+    /// Prescribes the direction of a curve at one of its control points, or sets it free.
+    Tangent {
+        /// Which curve.
+        curve: CurveId,
+        /// At which of its points.
+        point: PointId,
+        /// In the curve's own sense; any length but zero. `None` sets it free.
+        direction: Option<DVec3>,
+    },
     /// Renames the document.
     Rename {
         /// The new name, at most 200 characters.
@@ -108,6 +117,7 @@ impl Edit {
             Self::DeletePoint { .. } | Self::DeleteCurve { .. } | Self::DeleteSurface { .. } => "Delete",
             Self::Spacing { .. } => "Resolution",
             Self::Objective { .. } => "Objective",
+            Self::Tangent { .. } => "Tangent",
             Self::Rename { .. } => "Rename",
         }
     }

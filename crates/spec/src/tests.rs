@@ -18,9 +18,14 @@ fn sample() -> Document {
         document.points.insert(PointId(id), at);
     }
     let through = vec![PointId(1), PointId(2), PointId(3)];
-    document
-        .curves
-        .insert(CurveId(4), Curve { objective: Some(Objective::Fair), ..Curve::new(through, true) });
+    document.curves.insert(
+        CurveId(4),
+        Curve {
+            objective: Some(Objective::Fair),
+            tangents: [(PointId(2), dvec3(0.0, -0.5, 1.0 / 3.0))].into(),
+            ..Curve::new(through, true)
+        },
+    );
     let vertices = [1, 2, 3, 7].map(|id| SkeletonVertex::Control(PointId(id))).into_iter();
     let skeleton = Skeleton {
         vertices: vertices.chain([SkeletonVertex::Free(dvec3(0.5, 0.25, 2.0))]).collect(),
@@ -159,4 +164,31 @@ proptest! {
             document.validate().unwrap();
         }
     }
+}
+
+#[test]
+fn tangents_must_be_directions_at_points_of_their_curve() {
+    let mut document = sample();
+    let mut with = |point: u32, direction: DVec3| {
+        let curve = document.curves.get_mut(&CurveId(4)).unwrap();
+        curve.tangents = [(PointId(point), direction)].into();
+        document.validate()
+    };
+    assert_eq!(with(2, dvec3(0.0, 1e6, -3.0)), Ok(()));
+    let bad = [DVec3::ZERO, DVec3::NAN, DVec3::X * f64::INFINITY, DVec3::Y * 1.1e6, DVec3::Z * 1e-10];
+    for (point, direction) in [(7, DVec3::X), (99, DVec3::X)].into_iter().chain(bad.map(|d| (2, d))) {
+        let refused = with(point, direction);
+        assert!(
+            matches!(refused, Err(Defect::Tangent { point: PointId(p), .. }) if p == point),
+            "{refused:?}"
+        );
+    }
+}
+
+#[test]
+fn a_tangent_given_twice_is_refused() {
+    let text = to_compact_text(&sample());
+    let twice = text.replacen("\"tangents\":{\"2\":", "\"tangents\":{\"2\":[1,0,0],\"2\":", 1);
+    assert_ne!(twice, text, "{text}");
+    assert!(from_text(&twice).unwrap_err().to_string().contains("twice"));
 }

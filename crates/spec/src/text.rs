@@ -175,7 +175,7 @@ fn layout(value: &serde_json::Value, depth: usize, out: &mut String) {
 }
 
 /// A map whose keys may not repeat.
-fn unique<'de, D, K, V>(deserializer: D) -> Result<BTreeMap<K, V>, D::Error>
+pub(crate) fn unique<'de, D, K, V>(deserializer: D) -> Result<BTreeMap<K, V>, D::Error>
 where
     D: Deserializer<'de>,
     K: Deserialize<'de> + Ord + fmt::Display + Copy,

@@ -13,6 +13,8 @@ const MAX_CURVES: usize = 5_000;
 const MAX_SURFACES: usize = 500;
 const MAX_TRIANGLES: usize = 100_000;
 const MAX_NAME: usize = 200;
+/// Largest coordinate that a direction must have at least: below it the page shows zeros.
+const LEAST_DIRECTION: f64 = 1e-9;
 
 /// Why a document cannot be built.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -71,6 +73,16 @@ pub enum Defect {
         curve: CurveId,
         /// The repeated point.
         point: PointId,
+    },
+    /// A tangent is prescribed where the curve does not pass, or is no direction.
+    #[error("{curve}, tangent at {point}: {why}")]
+    Tangent {
+        /// Which curve.
+        curve: CurveId,
+        /// Where it is prescribed.
+        point: PointId,
+        /// What is wrong.
+        why: &'static str,
     },
     /// A surface names a point that does not exist, or names it twice.
     #[error("{surface}, vertex {vertex}: {point} {why}")]
@@ -186,6 +198,18 @@ fn validate_curve(id: CurveId, curve: &Curve, points: &BTreeMap<PointId, DVec3>)
         }
         if !seen.insert(*point) {
             return Err(Defect::CurveMeetsItself { curve: id, point: *point });
+        }
+    }
+    for (point, direction) in &curve.tangents {
+        let refuse = |why| Err(Defect::Tangent { curve: id, point: *point, why });
+        if !seen.contains(point) {
+            return refuse("the curve does not pass through this point");
+        }
+        if !direction.to_array().iter().all(|x| x.is_finite() && x.abs() <= MAX_COORDINATE) {
+            return refuse("its coordinates must be numbers between -1e6 and 1e6");
+        }
+        if direction.abs().max_element() < LEAST_DIRECTION {
+            return refuse("it has no direction: one coordinate must differ from zero");
         }
     }
     Ok(())

@@ -42,6 +42,8 @@ mod replies;
 mod settings;
 #[cfg(target_arch = "wasm32")]
 mod stage;
+#[cfg(target_arch = "wasm32")]
+mod tangent;
 
 #[cfg(target_arch = "wasm32")]
 pub use inspect::{inspect, provoke};

@@ -11,6 +11,7 @@ mod release;
 mod sheet;
 mod slide;
 mod sweep;
+mod tangent;
 
 use crate::error::ModelError;
 use crate::model::Model;
@@ -50,6 +51,7 @@ fn act(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result<(), ModelErr
         Edit::DeleteSurface { surface } => delete::surface(model, *surface),
         Edit::Spacing { spacing } => respace(model, *spacing),
         Edit::Objective { of, objective } => objective::choose(model, *of, *objective),
+        Edit::Tangent { curve, point, direction } => tangent::tangent(model, *curve, *point, *direction),
         Edit::Rename { name } => {
             model.document_mut().name.clone_from(name);
             Ok(model.document.validate()?)

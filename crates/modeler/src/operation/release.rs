@@ -53,6 +53,7 @@ fn release_from_curve(model: &mut Model, id: CurveId, point: PointId) -> Result<
     objective::forget_point(model, id, point, before);
     if let Some(curve) = model.document_mut().curves.get_mut(&id) {
         curve.through.retain(|other| *other != point);
+        curve.tangents.remove(&point);
     }
     let revision = model.next_revision();
     if let Some(shape) = model.curves.get_mut(&id).map(edit) {

@@ -203,3 +203,6 @@ impl Hinge {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -40,13 +40,14 @@ impl Default for Character {
 }
 
 impl Character {
-    /// For a curve whose controls have this radius.
-    pub(super) fn new(objective: Objective, price: Price, radius: f64) -> Self {
+    /// For a curve whose controls have this radius and whose nodes would have this spacing on their polygon.
+    pub(super) fn new(objective: Objective, price: Price, radius: f64, spacing: f64) -> Self {
         let (share, fold) = match objective {
             Objective::ThinPlate | Objective::Neutral => (1.0, 1.0),
-            Objective::Fair if radius > 0.0 => {
-                // The barrier is a number, the energy an inverse cube of a length.
-                (1.0 / (FAIR_LENGTH * FAIR_LENGTH * radius * radius), 1.0 / (radius * radius * radius))
+            Objective::Fair if radius > 0.0 && spacing > 0.0 => {
+                // The barrier is a number; the energy of one folded node is some inverse cubes of the spacing.
+                let fold = 1.0 / (spacing * spacing * spacing);
+                (1.0 / (FAIR_LENGTH * FAIR_LENGTH * radius * radius), fold)
             }
             Objective::Fair => (1.0, 1.0),
             // A taut string may turn at a control point as sharply as it likes.

@@ -29,6 +29,11 @@ const ROUGH: f64 = 0.25;
 /// A rough curve is smoothed as long as that promises to take this part of its bending.
 const SMOOTHING: f64 = 1e-3;
 
+/// A clamp folded up to this (half the length of the sum of chord and tangent) is stuck.
+const AGAINST: f64 = 1e-2;
+/// How far aside its chord's end is moved, in chords: enough for the barrier to see which way is out.
+const ASIDE: f64 = 0.1;
+
 /// A way to go, and how fast the objective falls along it at first.
 struct Direction {
     moves: Vec<DVec3>,
@@ -53,6 +58,9 @@ impl CurveSolver {
         self.measure(positions);
         let energy = self.bends.energy;
         let mut report = StepReport { energy_before: energy, energy, ..StepReport::default() };
+        self.unfold(positions);
+        let energy = self.bends.energy;
+        report.energy = energy;
         self.frames.transport(self.chain, &self.bends);
         let Ok(own) = self.direction(positions, self.settings.objective) else {
             self.damp(&mut report);
@@ -87,6 +95,27 @@ impl CurveSolver {
             }
         }
         Ok(report)
+    }
+
+    /// A chord that runs straight against its prescribed tangent is pulled to no side at all, though it may be at the top
+    /// of a hill: its free end is moved aside a little, if that costs nothing.
+    fn unfold(&mut self, positions: &mut [DVec3]) {
+        let is_stuck = |jacobian: f64| jacobian < AGAINST;
+        if !self.bends.hinges.iter().any(|h| h.is_clamp() && h.is_sound && is_stuck(h.jacobian)) {
+            return;
+        }
+        self.trial_positions.copy_from_slice(positions);
+        for hinge in self.bends.hinges.iter().filter(|h| h.is_clamp() && h.is_sound && is_stuck(h.jacobian)) {
+            if let Some(end) = hinge.before.or(hinge.after).filter(|&end| !self.fixed[end]) {
+                let aside = hinge.tangent().any_orthonormal_vector();
+                self.trial_positions[end] += aside * (ASIDE * 2.0 * hinge.ds);
+            }
+        }
+        self.trial.measure(self.chain, &self.trial_positions, self.bends.character);
+        if self.trial.energy < self.bends.energy {
+            positions.copy_from_slice(&self.trial_positions);
+            std::mem::swap(&mut self.bends, &mut self.trial);
+        }
     }
 
     fn damp(&mut self, report: &mut StepReport) {

@@ -141,6 +141,7 @@ impl Page {
             "redo" => self.request(Request::Redo),
             "reset" => self.reset(),
             "delete" => self.delete_selected(),
+            "free-tangent" => self.free_tangent(),
             "release" => {
                 if let Selection::Point(point) = self.selection {
                     self.request(Request::Edit(Edit::Release { point }));

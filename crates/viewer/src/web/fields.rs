@@ -1,7 +1,8 @@
-//! The fields in which the designer types: coordinates, edge length, name.
+//! The fields in which the designer types: coordinates, directions, edge length, name.
 
 use super::dom;
 use super::page::{Page, act};
+use super::tangent;
 use crate::number;
 use crate::tool::Selection;
 use ductile_spec::{Edit, PointId, Request};
@@ -15,6 +16,9 @@ const COORDINATES: [&str; 3] = ["x", "y", "z"];
 pub(crate) fn listen() {
     for (index, id) in COORDINATES.into_iter().enumerate() {
         on_field(id, move |page, text| page.typed_coordinate(index, text));
+    }
+    for (index, id) in tangent::FIELDS.into_iter().enumerate() {
+        on_field(id, move |page, text| page.typed_tangent(index, text));
     }
     on_field("spacing", Page::typed_spacing);
     on_field("name", |page, text| {
@@ -63,7 +67,7 @@ impl Page {
 
     /// Writes the present values into the fields.
     pub(crate) fn show_fields(&self) {
-        for id in COORDINATES.into_iter().chain(["spacing"]) {
+        for id in COORDINATES.into_iter().chain(tangent::FIELDS).chain(["spacing"]) {
             self.fill_field(&dom::element_as(id), false);
         }
     }
@@ -81,6 +85,9 @@ impl Page {
         let value = match (id.as_str(), self.selection) {
             ("name", _) => self.document.name.clone(),
             ("spacing", _) => self.document.spacing.map(number::show).unwrap_or_default(),
+            (field, Selection::Point(_)) if tangent::FIELDS.contains(&field) => {
+                self.tangent_text(tangent::FIELDS.iter().position(|name| *name == field).unwrap_or(0))
+            }
             (_, Selection::Point(point)) => {
                 let live = self.scene.header.held == Some(point);
                 let place = if live {

@@ -222,6 +222,7 @@ impl Page {
         let hangs = role.is_some_and(|role| role != PointRole::Free);
         dom::show(&dom::element("release"), hangs);
         dom::show(&dom::element("delete"), self.selection != Selection::None && !hangs);
+        self.show_tangent();
         let facts = dom::element("facts");
         dom::clear(&facts);
         for (name, value) in self.facts(role) {
