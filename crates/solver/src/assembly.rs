@@ -165,7 +165,7 @@ impl Assembly {
         let values = self.matrix.values_mut();
         values.fill(0.0);
         let mut rows = [[Pair::splat(0.0); 3]; MAX_RING + 1];
-        for batch in rings.batches() {
+        for batch in fits.active_batches(rings) {
             local_rows(rings, goals, &fits.rows[batch.rows()], batch, kind, &mut rows);
             let mut places = self.places[batch.pairs()].iter();
             for i in 0..=batch.degree {
@@ -197,7 +197,7 @@ impl Assembly {
     ) {
         rhs.fill(0.0);
         let mut rows = [[Pair::splat(0.0); 3]; MAX_RING + 1];
-        for batch in rings.batches() {
+        for batch in fits.active_batches(rings) {
             let lists = batch.nodes.map(|node| neighbourhood_of(rings, node as usize));
             let pairs = lists[0].clone().zip(lists[1].clone()).map(|pair| [pair.0 as usize, pair.1 as usize]);
             if pairs.clone().flatten().all(|far| field[far] == 0.0) {

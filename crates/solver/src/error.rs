@@ -82,6 +82,8 @@ pub struct Settings {
     pub predictor_iterations: u32,
     /// Largest relative strain of an edge in one predictor call.
     pub strain_limit: f64,
+    /// Nodes that must be able to sleep for it to be worth setting up what stays awake.
+    pub least_asleep: usize,
     /// Mass damping `mu` where four or more constraint points span space.
     pub damping: f64,
     /// Mass damping where they do not: such shapes have families of minimisers to drift along.
@@ -96,6 +98,7 @@ impl Default for Settings {
             predictor_tolerance: 1e-3,
             predictor_iterations: 60,
             strain_limit: 0.5,
+            least_asleep: 2000,
             damping: 0.1,
             loose_damping: 10.0,
         }

@@ -74,6 +74,8 @@ pub(crate) struct Fits {
     pub(crate) rows: Vec<Row>,
     /// The variation of curvature, where it counts.
     pub(crate) variation: Option<Variation>,
+    /// The batches that are fitted, by place, if some are left as they are; their nodes cannot have moved.
+    pub(crate) active: Option<Vec<usize>>,
     has_gradient: bool,
 }
 
@@ -113,6 +115,7 @@ impl Fits {
             gradient: vec![DVec3::ZERO; rings.len()],
             rows: vec![Row::default(); rows],
             variation: goals.network.as_ref().map(|network| Variation::new(rings, network)),
+            active: None,
             has_gradient: false,
         }
     }
@@ -157,13 +160,24 @@ impl Fits {
         }
     }
 
+    /// The batches in which anything can move.
+    pub(crate) fn active_batches<'a>(&'a self, rings: &'a Rings) -> impl Iterator<Item = &'a Batch> {
+        let batches = rings.batches();
+        let count = self.active.as_ref().map_or(batches.len(), Vec::len);
+        (0..count).map(move |place| &batches[self.active.as_ref().map_or(place, |active| active[place])])
+    }
+
     /// Forgets the positions, so that the next call fits whatever they are.
     pub(crate) fn forget(&mut self) {
         self.positions.fill(DVec3::NAN);
     }
 
     fn sweep(&mut self, rings: &Rings, sweep: &mut Sweep<'_>) {
-        for batch in rings.batches() {
+        let active = self.active.take();
+        let batches = rings.batches();
+        let count = active.as_ref().map_or(batches.len(), Vec::len);
+        for place in 0..count {
+            let batch = &batches[active.as_ref().map_or(place, |active| active[place])];
             let is_done = match (batch.is_regular(), batch.is_boundary) {
                 (false, _) => false,
                 (true, false) => self.fit_pair::<5>(rings, batch, sweep),
@@ -175,6 +189,7 @@ impl Fits {
                 }
             }
         }
+        self.active = active;
     }
 
     /// Both nodes of a batch at once; false, and nothing written, when either is out of the ordinary.

@@ -18,6 +18,7 @@ mod advance;
 mod figures;
 mod frozen;
 mod matrix;
+mod sleep;
 
 pub use figures::NodeFigures;
 pub use frozen::Frozen;
@@ -41,6 +42,7 @@ use crate::rings::Rings;
 use crate::smooth::{self, SmoothReport};
 
 use matrix::{Matrix, Scratch};
+use sleep::Sleep;
 
 /// Fair surfaces over one frozen connectivity.
 #[derive(Clone, Debug)]
@@ -67,6 +69,8 @@ pub struct SurfaceSolver {
     alpha: Vec<f64>,
     workspace: Workspace,
     scratch: Scratch,
+    /// What is put aside while bays sleep.
+    sleep: Option<Sleep>,
     /// Factor on the mass damping, above 1 after failed searches.
     damping: f64,
     quiet_steps: u32,
@@ -93,6 +97,7 @@ impl SurfaceSolver {
             alpha: Vec::new(),
             workspace: Workspace::default(),
             scratch: Scratch::default(),
+            sleep: None,
             objectives: Objectives::default(),
             goals,
             damping: 1.0,
@@ -118,6 +123,7 @@ impl SurfaceSolver {
     pub fn set_fixed(&mut self, fixed: Vec<bool>) -> Result<(), SolverError> {
         check_length(self.rings.len(), fixed.len())?;
         if fixed != self.fixed {
+            self.wake();
             let unknowns = unknowns(&self.rings, &fixed);
             self.preconditioner = Preconditioner::new(&self.rings, &unknowns, Acting::OnOffsets)?;
             self.field_preconditioner = field_preconditioner(&self.rings, &unknowns)?;
@@ -148,6 +154,7 @@ impl SurfaceSolver {
             self.quiet_steps = 0;
             self.objectives = objectives;
         } else if objectives != self.objectives {
+            self.wake();
             self.goals = Goals::new(&self.rings, &objectives);
             self.fits = Fits::new(&self.rings, &self.goals);
             self.trial = Fits::new(&self.rings, &self.goals);
@@ -172,6 +179,7 @@ impl SurfaceSolver {
         if moves.iter().all(|&(_, displacement)| displacement == DVec3::ZERO) {
             return Ok(Predicted { fraction: 1.0, ..Predicted::default() });
         }
+        self.heed_moves(&moves);
         self.refit(positions, Wanted::Gradient);
         self.prepare()?;
         self.assembly.assemble(&self.rings, &self.goals, &self.fits, Rows::Field, |_| 0.0);
@@ -356,6 +364,7 @@ impl SurfaceSolver {
 
     /// Fits at these positions, and the normals that go with them.
     fn refit(&mut self, positions: &[DVec3], wanted: Wanted) {
+        self.heed_positions(positions);
         self.fits.refit(&self.rings, &self.goals, positions, wanted);
         for (normal, fit) in self.normals.iter_mut().zip(&self.fits.nodes) {
             *normal = fit.normal;
