@@ -134,6 +134,12 @@ impl BoundSurface {
         self.solver.energy()
     }
 
+    /// How many free nodes sleep through the present drag.
+    #[must_use]
+    pub fn asleep(&self) -> usize {
+        self.solver.asleep()
+    }
+
     /// The compact node of a vertex.
     pub(crate) fn node(&self, v: VertexId) -> u32 {
         self.compact[v.index()]

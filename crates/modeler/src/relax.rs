@@ -162,7 +162,7 @@ impl Relaxer {
             self.step_curve(model, id);
         }
         for id in model.surfaces.keys().copied().collect::<Vec<_>>() {
-            self.step_surface(model, id, budget);
+            self.step_surface(model, id, budget, is_moving);
         }
         let is_due = self.steps.is_multiple_of(MAINTENANCE_PERIOD) && self.fast == 0;
         // A mesh that still does can wait until the hand rests: a new one costs the frame a new factorisation.
@@ -197,7 +197,7 @@ impl Relaxer {
         self.curves_at_rest.insert(id, is_met && rests && motion.is_empty());
     }
 
-    fn step_surface(&mut self, model: &mut Model, id: SurfaceId, budget: Budget) {
+    fn step_surface(&mut self, model: &mut Model, id: SurfaceId, budget: Budget, is_moving: bool) {
         let (Some(bound), Some(shape)) = (self.surfaces.get_mut(&id), model.surfaces.get(&id)) else {
             return;
         };
@@ -206,6 +206,11 @@ impl Relaxer {
         if motion.is_empty() && before.at_rest {
             return;
         }
+        // Far bays may sleep while the hand moves; what comes to rest is the whole shape.
+        if !is_moving {
+            bound.solver.wake();
+        }
+        let start = bound.positions.clone();
         let mut state = Relaxation { is_quiet: before.is_quiet, ..Relaxation::default() };
         for _ in 0..SUBSTEPS {
             if motion.is_empty() {
@@ -233,10 +238,13 @@ impl Relaxer {
                 state.residual =
                     if report.energy > 0.0 { report.predicted_decrease / report.energy } else { 0.0 };
                 state.iterations = report.cg_iterations;
-                state.at_rest = report.at_rest && motion.is_empty();
+                state.at_rest = report.at_rest && motion.is_empty() && bound.solver.asleep() == 0;
                 self.rescues = self.rescues.saturating_add(u32::from(report.damped));
             }
             Err(_) => self.rescues = self.rescues.saturating_add(1),
+        }
+        if is_moving && bound.solver.doze(&start, &bound.positions).is_err() {
+            self.rescues = self.rescues.saturating_add(1);
         }
         self.states.insert(id, state);
         if let Some(shape) = model.surfaces.get_mut(&id) {
