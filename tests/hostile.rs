@@ -53,6 +53,7 @@ fn free_ball(change: impl FnOnce(&mut Vec<DVec3>, &mut Vec<[u32; 3]>)) -> Docume
     document
 }
 
+#[expect(clippy::too_many_lines, reason = "a table: one entry after the other")]
 fn table() -> Vec<(&'static str, Expected, Document)> {
     let disc = Example::RaisedDisc;
     vec![

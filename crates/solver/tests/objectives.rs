@@ -122,7 +122,7 @@ fn exact_torus(major: f64, minor: f64) -> f64 {
     let steps = 2000;
     let mut sum = 0.0;
     for i in 0..steps {
-        let (sin, cos) = (2.0 * PI * f64::from(i) / f64::from(steps)).sin_cos();
+        let (sin, cos) = libm::sincos(2.0 * PI * f64::from(i) / f64::from(steps));
         let w = major + minor * cos;
         let derivative = -major * sin / (minor * w * w);
         sum += 3.0 * derivative * derivative * w * minor;
@@ -146,7 +146,7 @@ fn the_variation_of_a_torus_converges_to_its_integral() {
     };
     let (coarse, fine) = (error(48, 24), error(96, 48));
     assert!(fine < 0.01, "{fine}");
-    let order = (coarse / fine).log2();
+    let order = libm::log2(coarse / fine);
     assert!(order > 1.8, "{order}");
 }
 
@@ -168,7 +168,7 @@ fn six_points_of_a_sphere_make_a_sphere_again() {
     workload::pin_axes(&mut shape);
     let mut stream = Stream::new(7);
     for (position, _) in shape.positions.iter_mut().zip(&shape.fixed).filter(|(_, fixed)| !**fixed) {
-        let wave = 0.08 * (3.0 * position.x).sin() * (2.0 * position.y + 1.0).cos();
+        let wave = 0.08 * libm::sin(3.0 * position.x) * libm::cos(2.0 * position.y + 1.0);
         *position *= 1.0 + wave + 0.002 * stream.unit();
     }
     let mut solver = solver(&shape, Objective::Fair, 1.7);
@@ -183,7 +183,7 @@ fn six_points_of_a_sphere_make_a_sphere_again() {
 fn waist(length: f64, along: u32, bulge: f64, objective: Objective) -> f64 {
     let mut shape = workload::cylinder(24, along, length);
     for (position, _) in shape.positions.iter_mut().zip(&shape.fixed).filter(|(_, fixed)| !**fixed) {
-        let swell = 1.0 + bulge * (PI * position.z / length).cos();
+        let swell = 1.0 + bulge * libm::cos(PI * position.z / length);
         (position.x, position.y) = (position.x * swell, position.y * swell);
     }
     let radius = 0.5 * (length * length + 8.0).sqrt();
@@ -239,7 +239,7 @@ fn a_membrane_between_circles_is_a_catenoid() {
     let (mut low, mut high) = (0.6_f64, 1.0_f64);
     for _ in 0..80 {
         let a = 0.5 * (low + high);
-        if a * (0.5 * length / a).cosh() > 1.0 { high = a } else { low = a }
+        if a * libm::cosh(0.5 * length / a) > 1.0 { high = a } else { low = a }
     }
     let exact = low;
     let error = |around, along| {
