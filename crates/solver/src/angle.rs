@@ -1,4 +1,7 @@
-//! The angle between two vectors, and the direction of an angle, by polynomials without a branch.
+//! The angle between two vectors, and the direction of an angle, by polynomials.
+//!
+//! Nearly all angles of a good mesh lie about 60 degrees: those from 15 to 105 are reckoned from there, without a
+//! choice (`angle_between`). The others go through `angle`, which takes any. Each lane chooses for itself.
 //!
 //! Written for [`Real`], so that two nodes share the work. The polynomials are Chebyshev interpolants of the odd and
 //! even parts on the reduced ranges, computed with 60 digits; their own error is below 1e-17, so what is left is
@@ -53,6 +56,34 @@ fn polynomial<T: Real, const N: usize>(coefficients: [f64; N], x: T) -> T {
         sum = sum * x + T::splat(coefficient);
     }
     sum
+}
+
+/// Sine of 60 degrees.
+const SIN_60: f64 = 0.866_025_403_784_438_6;
+/// `π/3` rounded; what is lost, 1.15e-16, is half a unit in its last place.
+const SIXTH_TURN: f64 = std::f64::consts::FRAC_PI_3;
+/// Square of the largest `tan` of half the way from 60 degrees for which the polynomial holds: `tan²(π/8)`.
+const REACH: f64 = 0.171_572_875_253_809_9;
+
+/// The angle whose sine is `height / hypotenuse` and whose cosine is `base / hypotenuse`, in [0, π].
+///
+/// `is_plane` says in which lanes the height is more than rounding; the others, and angles far from 60 degrees, are
+/// those of [`angle`].
+#[inline(always)]
+pub(crate) fn angle_between<T: Real>(height: T, base: T, hypotenuse: T, is_plane: T::Mask) -> T {
+    let (half, sin_60) = (T::splat(0.5), T::splat(SIN_60));
+    // The vector turned back by 60 degrees; half its angle by tan(x/2) = sin x / (1 + cos x).
+    let over = height * half - base * sin_60;
+    let under = hypotenuse + (base * half + height * sin_60);
+    let z = over / under;
+    let square = z * z;
+    let rest = z + z * (square * polynomial(ARC_TANGENT, square));
+    let near = T::splat(SIXTH_TURN) + (rest + rest);
+    let is_near = T::choose(is_plane, square, T::splat(f64::INFINITY)).less(T::splat(REACH));
+    if T::all(is_near) {
+        return near;
+    }
+    T::choose(is_near, near, angle(height, base))
 }
 
 /// `atan2(height, base)` for `height >= 0`: an angle in [0, π]. NaN when both are zero.
@@ -123,6 +154,60 @@ mod tests {
         assert!(angle(0.0, 0.0_f64).is_nan());
         // Needles keep their relative precision.
         assert!((angle(1e-12, 1.0_f64) / 1e-12 - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn angles_near_sixty_degrees_are_those_of_the_library() {
+        let mut stream = Stream::new(8);
+        let mut worst = 0.0_f64;
+        for _ in 0..200_000 {
+            let (r, truth) = (libm::exp(40.0 * (stream.unit() - 0.5)), 0.2 + 1.8 * stream.unit());
+            let (sin, cos) = libm::sincos(truth);
+            let (height, base) = (r * sin, r * cos);
+            let found = angle_between(height, base, r, true);
+            worst = worst.max((found - libm::atan2(height, base)).abs());
+        }
+        // Two units in the last place of π/2: the hypotenuse is rounded too.
+        assert!(worst <= 4.5e-16, "{worst}");
+    }
+
+    #[test]
+    fn angles_join_where_the_range_of_the_polynomial_ends() {
+        for end in [FRAC_PI_4 / 3.0, 7.0 * FRAC_PI_4 / 3.0] {
+            for step in -8_i32..=8 {
+                let (sin, cos) = libm::sincos(end + 1e-16 * f64::from(step));
+                let (found, plain) = (angle_between(sin, cos, 1.0, true), angle(sin, cos));
+                assert!((found - plain).abs() <= 4.5e-16, "{end} {step}");
+            }
+            // A little beyond, it is the other one that speaks.
+            let beyond = end + 1e-9 * (end - SIXTH_TURN).signum();
+            let (sin, cos) = libm::sincos(beyond);
+            assert_eq!(angle_between(sin, cos, 1.0, true).to_bits(), angle(sin, cos).to_bits());
+        }
+    }
+
+    #[test]
+    fn chords_without_a_plane_have_the_plain_angle() {
+        // The sides are so short that their products vanish: the hypotenuse knows nothing of the angle.
+        assert_eq!(angle_between(0.0, 5e-301, 1e-300, false), 0.0);
+        assert!(angle_between(0.0, 0.0, 0.0, false).is_nan());
+    }
+
+    #[test]
+    fn a_lane_has_the_same_angle_beside_any_other() {
+        let turns = [0.1, 0.25, 0.3, 1.0, 1.5, 1.83, 1.84, 3.0];
+        let sides = turns.map(libm::sincos);
+        for (i, first) in sides.iter().enumerate() {
+            for (j, second) in sides.iter().enumerate() {
+                let one = Pair::splat(1.0);
+                let (height, base) = (Pair::new([first.0, second.0]), Pair::new([first.1, second.1]));
+                let found = angle_between(height, base, one, Pair::splat(0.0).less(one));
+                for (lane, side) in [(0, first), (1, second)] {
+                    let single = angle_between(side.0, side.1, 1.0, true);
+                    assert_eq!(found.lane(lane).to_bits(), single.to_bits(), "{i} {j}");
+                }
+            }
+        }
     }
 
     #[test]

@@ -276,7 +276,7 @@ fn fan<T: Real>(ring: &Ring<T>) -> T {
 
 /// Unit sum of the triangles' area vectors: the normal where no quadratic gives one.
 fn facet_normal(ring: &Ring<f64>) -> Vector<f64> {
-    let sum: DVec3 = (0..ring.gaps()).map(|j| ring.cross[j].lane(0)).sum();
+    let sum: DVec3 = (0..ring.gaps()).map(|j| ring.chords[j].cross(ring.chords[ring.next(j)]).lane(0)).sum();
     let normal = sum.try_normalize().unwrap_or(DVec3::Z);
     Vector::gather(|_| normal)
 }

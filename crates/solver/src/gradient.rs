@@ -24,6 +24,8 @@ pub(crate) struct Backward<T> {
     /// One over a chord's length and its square; zero for a chord without length.
     inverse: [T; MAX_RING],
     inverse_square: [T; MAX_RING],
+    /// How much of every chord itself the angles add to its derivative.
+    along: [T; MAX_RING],
 }
 
 impl<T: Real> Default for Backward<T> {
@@ -36,6 +38,7 @@ impl<T: Real> Default for Backward<T> {
             gap: numbers,
             inverse: numbers,
             inverse_square: numbers,
+            along: numbers,
         }
     }
 }
@@ -78,6 +81,7 @@ impl<T: Real> Backward<T> {
     fn begin(&mut self, ring: &Ring<T>) {
         let degree = ring.degree;
         self.gap[..degree].fill(T::splat(0.0));
+        self.along[..degree].fill(T::splat(0.0));
         let zero = T::splat(0.0);
         for j in 0..degree {
             let inverse = T::choose(zero.less(ring.r[j]), T::splat(1.0) / ring.r[j], zero);
@@ -168,8 +172,12 @@ impl<T: Real> Backward<T> {
                 // Collinear chords have no plane to turn in.
                 let is_plane = (ring.r[j] * ring.r[next] * T::splat(COLLINEAR)).less(length);
                 let factor = T::choose(is_plane, angle_bar / length, zero);
-                self.chords[j] -= ring.cross[j].cross(near) * (factor * self.inverse_square[j]);
-                self.chords[next] += ring.cross[j].cross(far) * (factor * self.inverse_square[next]);
+                // (a x b) x a = b (a.a) - a (a.b): across, and along the chord itself, where the length adds its part.
+                let along = factor * ring.dot[j];
+                self.chords[j] -= far * factor;
+                self.chords[next] -= near * factor;
+                self.along[j] += along * self.inverse_square[j];
+                self.along[next] += along * self.inverse_square[next];
             }
             later += self.theta[j];
         }
@@ -179,7 +187,7 @@ impl<T: Real> Backward<T> {
     #[inline(always)]
     fn through_lengths(&mut self, ring: &Ring<T>) {
         for j in 0..ring.degree {
-            self.chords[j] += ring.chords[j] * (self.r[j] * self.inverse[j]);
+            self.chords[j] += ring.chords[j] * (self.along[j] + self.r[j] * self.inverse[j]);
         }
     }
 }

@@ -34,8 +34,8 @@ pub(crate) struct Ring<T> {
     pub(crate) sin: [T; MAX_RING],
     /// The unscaled angle between a chord and the next one; 0 for the last chord of an open ring.
     pub(crate) angle: [T; MAX_RING],
-    /// Cross product of a chord with the next one, and its length.
-    pub(crate) cross: [Vector<T>; MAX_RING],
+    /// Scalar product of a chord with the next one, and the length of their cross product.
+    pub(crate) dot: [T; MAX_RING],
     pub(crate) cross_length: [T; MAX_RING],
     /// Mean chord length; `u` and `v` are divided by it.
     pub(crate) h: T,
@@ -59,7 +59,7 @@ impl<T: Real> Default for Ring<T> {
             cos: numbers,
             sin: numbers,
             angle: numbers,
-            cross: vectors,
+            dot: numbers,
             cross_length: numbers,
             h: zero,
             total: zero,
@@ -117,14 +117,15 @@ impl<T: Real> Ring<T> {
         let mut is_ordinary = true;
         for j in 0..gaps {
             let next = self.next(j);
-            let cross = self.chords[j].cross(self.chords[next]);
-            let length = cross.length();
+            let length = self.chords[j].cross(self.chords[next]).length();
             let dot = self.chords[j].dot(self.chords[next]);
-            let found = angle::angle(length, dot);
+            let product = self.r[j] * self.r[next];
+            let is_plane = (product * T::splat(COLLINEAR)).less(length);
+            let found = angle::angle_between(length, dot, product, is_plane);
             // Two chords without length have no angle: the quotient is NaN there.
             let found = T::choose(found.less(T::splat(4.0)), found, zero);
-            is_ordinary &= T::all((self.r[j] * self.r[next] * T::splat(COLLINEAR)).less(length));
-            self.cross[j] = cross;
+            is_ordinary &= T::all(is_plane);
+            self.dot[j] = dot;
             self.cross_length[j] = length;
             self.angle[j] = found;
             total += found;
