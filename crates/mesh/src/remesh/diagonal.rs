@@ -37,26 +37,9 @@ impl Diagonal {
         [h.next(), h.prev(), at_a, at_b].map(|h| mesh.twin(h).map(|t| mesh.apex(t)))
     }
 
-    fn points(&self, positions: &[DVec3]) -> [DVec3; 4] {
+    pub(super) fn points(&self, positions: &[DVec3]) -> [DVec3; 4] {
         let ([a, b], [c, d]) = (self.ends, self.opposite);
         [a, b, c, d].map(|v| positions[v.index()])
-    }
-
-    /// By how much a flip would raise the smallest angle between the diagonal and the sides; 0 if it
-    /// would not.
-    pub(super) fn gain(&self, positions: &[DVec3]) -> f64 {
-        let [a, b, c, d] = self.points(positions);
-        // Two opposite angles of at most 90° each: the edge is Delaunay, and no other edge has a wider least angle.
-        if (a - c).dot(b - c) >= 0.0 && (a - d).dot(b - d) >= 0.0 {
-            return 0.0;
-        }
-        let (cos_now, now) = sharpest(corners_at_diagonal(a, b, c, d));
-        let (cos_flipped, flipped) = sharpest(corners_at_diagonal(c, d, a, b));
-        if cos_flipped < cos_now {
-            angle_between(flipped.0, flipped.1) - angle_between(now.0, now.1)
-        } else {
-            0.0
-        }
     }
 
     /// The smallest angle of the two triangles.
@@ -72,16 +55,14 @@ impl Diagonal {
     }
 
     /// Whether the surface is flat enough here for the flip to make sense: no dihedral angle of more than
-    /// 90° across either diagonal, none made across the sides (or made worse), and both new triangles
-    /// facing the side of the old ones.
+    /// 90° across either diagonal, none made across the sides (or made worse), and the new triangles not
+    /// turned over in the plane of the old ones.
     pub(super) fn is_flat_enough(&self, mesh: &Mesh, positions: &[DVec3]) -> bool {
         let [a, b, c, d] = self.points(positions);
         let normal = |p: DVec3, q: DVec3, r: DVec3| (q - p).cross(r - p).normalize_or_zero();
         let (old_c, old_d) = (normal(a, b, c), normal(b, a, d));
         let (new_a, new_b) = (normal(c, a, d), normal(d, b, c));
-        let old = old_c + old_d;
-        if old_c.dot(old_d) < 0.0 || new_a.dot(new_b) < 0.0 || new_a.dot(old) <= 0.0 || new_b.dot(old) <= 0.0
-        {
+        if old_c.dot(old_d) < 0.0 || new_a.dot(new_b) < 0.0 || !is_convex([a, b, c, d], old_c + old_d) {
             return false;
         }
         let sides = [(b, c, old_c, new_b), (c, a, old_c, new_a), (a, d, old_d, new_a), (d, b, old_d, new_b)];
@@ -93,6 +74,20 @@ impl Diagonal {
             })
         })
     }
+}
+
+/// Whether the diagonals `ab` and `cd` of a quadrilateral cross when seen along `normal`, so that neither pair of
+/// triangles overlaps.
+///
+/// The sign of an area decides, which may be as small as the rounding errors of computing it; an exact predicate gives
+/// it for the four projected points, and gives opposite answers for the two ways round.
+fn is_convex([a, b, c, d]: [DVec3; 4], normal: DVec3) -> bool {
+    let normal = normal.normalize_or_zero();
+    let along = (b - a).reject_from_normalized(normal).normalize_or_zero();
+    let across = normal.cross(along);
+    let project = |p: DVec3| robust::Coord { x: along.dot(p - a), y: across.dot(p - a) };
+    let (a, b, c, d) = (project(a), project(b), project(c), project(d));
+    robust::orient2d(d, c, a) > 0.0 && robust::orient2d(c, d, b) > 0.0
 }
 
 /// The corners between the segment `pq` and the sides of the quadrilateral `p r q s`, as pairs of legs.

@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
-use super::collapse_crowded::collapse_into_nearest;
+use super::collapse_short::collapse_into_nearest;
 use super::diagonal::Diagonal;
 use super::split_long::LONG;
-use super::{Edits, LEAST_CORNER, Limits, Sizing};
+use super::{Edits, LEAST_CORNER, Limits, Seeds, Sizing};
 use crate::{EdgeId, Mesh, VertexId};
 
 /// A full quadratic through the centre needs five neighbours.
@@ -18,9 +18,18 @@ const ENOUGH: usize = 5;
 ///
 /// This ends: every collapse leaves fewer vertices, and between collapses every flip leaves fewer missing
 /// neighbours, for no flip makes a vertex that lacks some.
-pub fn repair_valence(mesh: &mut Mesh, positions: &[DVec3], sizing: &Sizing, limits: &Limits<'_>) -> Edits {
+pub fn repair_valence(
+    mesh: &mut Mesh,
+    positions: &[DVec3],
+    sizing: &Sizing,
+    seeds: Seeds<'_>,
+    limits: &Limits<'_>,
+) -> Edits {
     let mut edits = Edits::default();
-    let mut stack: Vec<_> = mesh.vertices().filter(|&v| is_poor(mesh, v)).collect();
+    let mut stack: Vec<_> = seeds.edges(mesh).into_iter().flat_map(|e| mesh.edge_vertices(e)).collect();
+    stack.sort_unstable();
+    stack.dedup();
+    stack.retain(|&v| is_poor(mesh, v));
     stack.reverse();
     let mut ring = Vec::new();
     while let Some(v) = stack.pop() {
@@ -34,7 +43,7 @@ pub fn repair_valence(mesh: &mut Mesh, positions: &[DVec3], sizing: &Sizing, lim
             stack.push(v);
             continue;
         }
-        if (limits.is_pinned)(v) || mesh.is_on_source_curve(v) {
+        if !limits.may_collapse || (limits.is_pinned)(v) || mesh.is_on_source_curve(v) {
             continue;
         }
         mesh.ring(v, &mut ring);

@@ -5,19 +5,24 @@ use std::collections::BinaryHeap;
 
 use glam::DVec3;
 
-use super::{Edits, Limits, Place, Sizing, midpoint};
-use crate::{EdgeId, Mesh};
+use super::collapse_short::SHORT;
+use super::{Edits, Limits, Place, Seeds, Sizing, midpoint};
+use crate::{EdgeId, Mesh, VertexId};
 
-/// An edge is long above this multiple of its target: halves are then at least 0.675 of it, and crowding
-/// below 0.72 still needs a whole ring of such halves.
-pub(super) const LONG: f64 = 1.35;
+/// An edge is long above this multiple of its target: its halves are then not short. No collapse makes an edge so long.
+pub(super) const LONG: f64 = 1.33;
 
-/// Splits edges longer than 1.35 of their target, the longest (for its target) first, until none is left or
-/// a limit is reached. `place` says where the new vertex goes; `positions` is extended as needed.
+/// Above this multiple an edge is split even where the new vertex has little room. No flip makes an edge so long. (Were
+/// flips held to 1.33, vertices with four neighbours would stay for want of a flip.)
+pub(super) const TOO_LONG: f64 = 1.6;
+
+/// Splits edges longer than 1.33 of their target, the longest (for its target) first, until none is left or
+/// a limit is reached; where the new vertex would lie close to one across from the edge, only from 1.6 on. `place` says where the new vertex goes; `positions` is extended as needed.
 pub fn split_long(
     mesh: &mut Mesh,
     positions: &mut Vec<DVec3>,
     sizing: &mut Sizing,
+    seeds: Seeds<'_>,
     limits: &Limits<'_>,
     place: &mut Place<'_>,
 ) -> Edits {
@@ -26,15 +31,17 @@ pub fn split_long(
     // Bits of non-negative floats sort like the floats; among equals the lowest edge goes first.
     let offer = |mesh: &Mesh, at: &[DVec3], sizing: &Sizing, e: EdgeId, queue: &mut BinaryHeap<_>| {
         let ratio = sizing.ratio(mesh, at, e);
-        if ratio > LONG && limits.may_edit(mesh, e) {
+        if ratio > LONG && is_long(mesh, at, sizing, e) && limits.may_edit(mesh, e) {
             queue.push((ratio.to_bits(), Reverse(e)));
         }
     };
-    mesh.edges().for_each(|e| offer(mesh, positions, sizing, e, &mut queue));
+    for e in seeds.edges(mesh) {
+        offer(mesh, positions, sizing, e, &mut queue);
+    }
     let mut left = limits.allowance(mesh.vertex_count());
     while let Some((bits, Reverse(e))) = queue.pop() {
-        if sizing.ratio(mesh, positions, e).to_bits() != bits {
-            continue; // it was split meanwhile, and its shorter half is queued
+        if sizing.ratio(mesh, positions, e).to_bits() != bits || !is_long(mesh, positions, sizing, e) {
+            continue; // it was split meanwhile, and its longer half is queued
         }
         let (c, d) = mesh.edge_opposites(e);
         if [Some(c), d].into_iter().flatten().any(|v| mesh.valence(v) >= limits.most_neighbours) {
@@ -63,4 +70,16 @@ pub fn split_long(
     }
     edits.settle(mesh);
     edits
+}
+
+/// Whether an edge is too long, or long with room for another vertex: one that would not be collapsed at once into a
+/// vertex across from the edge.
+fn is_long(mesh: &Mesh, positions: &[DVec3], sizing: &Sizing, e: EdgeId) -> bool {
+    let ratio = sizing.ratio(mesh, positions, e);
+    let middle = midpoint(mesh, positions, e);
+    let (c, d) = mesh.edge_opposites(e);
+    let target = sizing.along(mesh, e);
+    let is_clear =
+        |v: VertexId| positions[v.index()].distance(middle) >= SHORT * 0.5 * (target + sizing.at(v));
+    ratio > TOO_LONG || (ratio > LONG && [Some(c), d].into_iter().flatten().all(is_clear))
 }

@@ -1,5 +1,3 @@
-use core::f64::consts::PI;
-
 use proptest::prelude::*;
 
 use super::*;
@@ -7,6 +5,9 @@ use crate::property_test::cases;
 use crate::{SourceTag, measure, primitive, quality, summary, validate};
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
+
+/// No length is too long.
+const FREE: Sizing = Sizing::Uniform(f64::INFINITY);
 
 /// Moves every point by up to `size` in each direction, repeatably.
 fn jitter(positions: &mut [DVec3], size: f64, mut seed: u64) {
@@ -29,12 +30,12 @@ fn jitter_inside(mesh: &Mesh, positions: &mut [DVec3], size: f64, seed: u64) {
     }
 }
 
-fn least_gain_possible(mesh: &Mesh, positions: &[DVec3]) -> bool {
+fn nothing_to_flip(mesh: &Mesh, positions: &[DVec3]) -> bool {
     mesh.edges().filter(|&e| mesh.can_flip(e).is_ok()).all(|e| {
         let d = diagonal::Diagonal::of(mesh, e).unwrap();
         let degrees =
             d.ends.iter().all(|&v| mesh.valence(v) > if mesh.is_boundary_vertex(v) { 3 } else { 5 });
-        !degrees || !d.is_flat_enough(mesh, positions) || d.gain(positions) <= 0.05
+        !degrees || !d.is_flat_enough(mesh, positions) || potential::fall(mesh, positions, &d) <= 0.1
     })
 }
 
@@ -46,7 +47,8 @@ fn splitting_reaches_the_target_everywhere() {
     let mut batches = 0;
     loop {
         let before = mesh.vertex_count();
-        let edits = split_long(&mut mesh, &mut positions, &mut sizing, &Limits::default(), &mut midpoint);
+        let edits =
+            split_long(&mut mesh, &mut positions, &mut sizing, Seeds::All, &Limits::default(), &mut midpoint);
         assert_eq!(validate(&mesh), Ok(()));
         assert!(mesh.vertex_count() - before <= (before / 10).max(LEAST_GROWTH), "growth is bounded");
         assert_eq!(edits.splits, mesh.vertex_count() - before);
@@ -56,7 +58,7 @@ fn splitting_reaches_the_target_everywhere() {
         }
     }
     assert!(batches > 3);
-    assert!(quality(&mesh, &positions).longest_edge <= 1.35 * 0.3);
+    assert!(quality(&mesh, &positions).longest_edge <= 1.33 * 0.3);
     assert_eq!(summary(&mesh).kind(), kind);
     assert!((measure::total_area(&mesh, &positions) - 16.0).abs() < 1e-9);
 }
@@ -74,7 +76,7 @@ fn curves_and_boundaries_are_split_only_on_request() {
         let (mut mesh, mut positions) = (start.clone(), positions.clone());
         let limits =
             Limits { may_edit_curves: curves, may_edit_boundary: boundary, growth: 9.0, ..Limits::default() };
-        split_long(&mut mesh, &mut positions, &mut Sizing::Uniform(0.5), &limits, &mut midpoint);
+        split_long(&mut mesh, &mut positions, &mut Sizing::Uniform(0.5), Seeds::All, &limits, &mut midpoint);
         assert_eq!(validate(&mesh), Ok(()));
         assert_eq!(count(&mesh, &|e| mesh.is_source_edge(e)) > 3, curves);
         assert_eq!(count(&mesh, &|e| mesh.is_boundary_edge(e)) > 12, boundary);
@@ -97,13 +99,21 @@ fn the_vertex_budget_holds() {
 fn an_odd_position_or_target_does_no_harm() {
     let (mut mesh, mut positions) = primitive::plane(2, 2, 1.0);
     let mut nowhere = |_: &Mesh, _: &[DVec3], _: EdgeId| DVec3::NAN;
-    split_long(&mut mesh, &mut positions, &mut Sizing::Uniform(0.5), &Limits::default(), &mut nowhere);
+    split_long(
+        &mut mesh,
+        &mut positions,
+        &mut Sizing::Uniform(0.5),
+        Seeds::All,
+        &Limits::default(),
+        &mut nowhere,
+    );
     assert!(positions.iter().all(|p| p.is_finite()));
     for target in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let edits = split_long(
             &mut mesh,
             &mut positions,
             &mut Sizing::Uniform(target),
+            Seeds::All,
             &Limits::default(),
             &mut nowhere,
         );
@@ -126,7 +136,7 @@ fn crowds_are_thinned_but_pins_stay() {
     assert!(mesh.vertex_count() < 642 / 2, "{}", mesh.vertex_count());
     assert!((0..12).chain([40]).all(|i| mesh.has_vertex(VertexId::from_index(i))));
     let q = quality(&mesh, &positions);
-    assert!(q.least_angle > 0.3 && q.inner_valences[3] + q.inner_valences[4] == 0, "{q:?}");
+    assert!(q.least_angle > 0.17 && q.inner_valences[3] + q.inner_valences[4] == 0, "{q:?}");
     for f in mesh.faces() {
         let p = positions[mesh.face_vertices(f)[0].index()];
         assert!(measure::face_normal(&mesh, &positions, f).dot(p) > 0.0, "nothing folds over");
@@ -134,31 +144,72 @@ fn crowds_are_thinned_but_pins_stay() {
 }
 
 #[test]
-fn flips_restore_delaunay_in_the_plane() {
+fn flips_lower_the_potential_as_far_as_they_may() {
     let (mut mesh, mut positions) = primitive::plane(10, 10, 1.0);
-    jitter_inside(&mesh, &mut positions, 0.3, 7);
+    jitter_inside(&mesh, &mut positions, 0.45, 7);
     let before = quality(&mesh, &positions);
-    let edits = flip_pass(&mut mesh, &positions, Seeds::All, &Limits::default());
+    let edits = flip_pass(&mut mesh, &positions, &FREE, Seeds::All, &Limits::default());
     assert_eq!(validate(&mesh), Ok(()));
-    assert!(edits.flips > 10 && !edits.is_cut_short);
-    let after = quality(&mesh, &positions);
-    assert!(after.least_angle >= before.least_angle && after.mean_least_angle > before.mean_least_angle);
-    assert!(least_gain_possible(&mesh, &positions));
-    let again = flip_pass(&mut mesh, &positions, Seeds::All, &Limits::default());
+    assert!(edits.flips > 5 && !edits.is_cut_short);
+    assert!(quality(&mesh, &positions).mean_least_angle > before.mean_least_angle);
+    assert!(nothing_to_flip(&mesh, &positions));
+    let again = flip_pass(&mut mesh, &positions, &FREE, Seeds::All, &Limits::default());
     assert_eq!((again.flips, again.touched.len()), (0, 0));
 }
 
 #[test]
+fn flips_among_cocircular_points_come_to_an_end() {
+    // Each square of the grid has four points on a circle: no shape decides, only the valences and the hysteresis do.
+    for seed in 0..20_u64 {
+        let (mut mesh, positions) = primitive::plane(12, 9, 1.0);
+        let diagonals: Vec<_> =
+            mesh.edges().filter(|&e| measure::edge_length(&mesh, &positions, e) > 1.2).collect();
+        let mut choice = vec![DVec3::ZERO; diagonals.len()];
+        jitter(&mut choice, 1.0, seed);
+        for (&e, choice) in diagonals.iter().zip(&choice) {
+            if choice.x > 0.0 && mesh.can_flip(e).is_ok() {
+                mesh.flip(e);
+            }
+        }
+        let before = potential::total(&mesh, &positions);
+        let edits = flip_pass(&mut mesh, &positions, &FREE, Seeds::All, &Limits::default());
+        assert!(edits.flips > 10 && !edits.is_cut_short, "{edits:?}");
+        // Here every fall is one of squares of integers, and 2 at the least.
+        assert!(potential::total(&mesh, &positions) < before - 1.99 * edits.flips as f64);
+        assert_eq!(flip_pass(&mut mesh, &positions, &FREE, Seeds::All, &Limits::default()).flips, 0);
+        assert!(mesh.faces().all(|f| measure::face_normal(&mesh, &positions, f).z > 0.9));
+    }
+}
+
+#[test]
 fn flipping_around_the_touched_vertices_is_enough() {
-    let (mut mesh, mut positions) = primitive::plane(8, 8, 1.0);
-    flip_pass(&mut mesh, &positions, Seeds::All, &Limits::default());
+    let (mut mesh, positions) = primitive::plane(8, 8, 1.0);
+    let regular = potential::total(&mesh, &positions);
     let v = VertexId::from_index(40);
-    positions[v.index()] += DVec3::new(0.7, 0.6, 0.0);
-    let mut whole = mesh.clone();
-    let near = flip_pass(&mut mesh, &positions, Seeds::Around(&[v]), &Limits::default());
-    flip_pass(&mut whole, &positions, Seeds::All, &Limits::default());
-    assert!(near.flips > 0 && near.touched.contains(&v));
-    assert!(least_gain_possible(&mesh, &positions) && least_gain_possible(&whole, &positions));
+    let e = mesh.spokes(v).find(|&e| mesh.can_flip(e).is_ok()).unwrap();
+    let ends = mesh.edge_vertices(e);
+    mesh.flip(e);
+    let near = flip_pass(&mut mesh, &positions, &FREE, Seeds::Around(&ends), &Limits::default());
+    assert!(near.flips > 0 && ends.iter().all(|v| near.touched.contains(v)));
+    assert!((potential::total(&mesh, &positions) - regular).abs() < 1e-9);
+}
+
+#[test]
+fn a_batch_where_nothing_changed_looks_at_nothing() {
+    let (mut mesh, mut positions) = primitive::icosphere(4);
+    let mut sizing = Sizing::Uniform(measure::mean_edge_length(&mesh, &positions));
+    let (mut ledger, limits) = (Ledger::default(), Limits::default());
+    let mut run = |positions: &mut Vec<DVec3>, slack| {
+        improve_changed(&mut mesh, positions, &mut sizing, (&mut ledger, slack), &limits, &mut midpoint)
+            .count()
+    };
+    assert_eq!(run(&mut positions, 0.0), 0);
+    // A pair of vertices on top of each other, which only a look at them can find.
+    positions[7] = positions[700];
+    let (mesh, _) = primitive::icosphere(4);
+    let far = mesh.neighbours(VertexId::from_index(7)).next().unwrap();
+    positions[7] = positions[far.index()].lerp(positions[7], 0.01);
+    assert!(run(&mut positions, 0.02) > 0);
 }
 
 #[test]
@@ -168,12 +219,16 @@ fn sharp_creases_and_curves_are_not_flipped() {
     let roof =
         |z: f64| [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [2.0, 0.5, z], [2.0, -0.5, z]].map(DVec3::from_array);
     let flat = Limits::default();
-    assert_eq!(flip_pass(&mut mesh.clone(), &roof(-2.0), Seeds::All, &flat).flips, 0, "dihedral above 90°");
+    assert_eq!(
+        flip_pass(&mut mesh.clone(), &roof(-2.0), &FREE, Seeds::All, &flat).flips,
+        0,
+        "dihedral above 90°"
+    );
     // The ends of the ridge have three neighbours and are on the boundary: degree forbids it, flat or not.
-    assert_eq!(flip_pass(&mut mesh.clone(), &roof(0.0), Seeds::All, &flat).flips, 0);
+    assert_eq!(flip_pass(&mut mesh.clone(), &roof(0.0), &FREE, Seeds::All, &flat).flips, 0);
     let ridge = mesh.edge_between(VertexId(0), VertexId(1)).unwrap();
     mesh.set_edge_source(ridge, Some(SourceTag(0)));
-    assert_eq!(flip_pass(&mut mesh, &roof(0.0), Seeds::All, &flat).flips, 0);
+    assert_eq!(flip_pass(&mut mesh, &roof(0.0), &FREE, Seeds::All, &flat).flips, 0);
 }
 
 #[test]
@@ -186,7 +241,7 @@ fn poor_vertices_are_mended() {
         positions[v.index()] = corners.into_iter().sum::<DVec3>().normalize_or_zero();
     }
     assert!(quality(&mesh, &positions).inner_valences[3] > 10);
-    let edits = repair_valence(&mut mesh, &positions, &Sizing::Uniform(0.32), &Limits::default());
+    let edits = repair_valence(&mut mesh, &positions, &Sizing::Uniform(0.32), Seeds::All, &Limits::default());
     assert_eq!(validate(&mesh), Ok(()));
     let q = quality(&mesh, &positions);
     assert_eq!(q.inner_valences[..5], [0; 5], "{edits:?}");
@@ -225,16 +280,17 @@ fn batches_come_to_rest_without_smoothing() {
     ] {
         for target in [0.2, 0.15, 0.1] {
             let mut sizing = Sizing::Uniform(target);
-            let rested = (0..60).any(|_| {
+            let rested = (0..60).any(|round| {
+                let limits = Limits { may_collapse: round < 20, ..Limits::default() };
                 let is_ball = name == "ball";
                 let mut place =
                     |m: &Mesh, p: &[DVec3], e| if is_ball { on_ball(m, p, e) } else { midpoint(m, p, e) };
-                let edits = improve(&mut mesh, &mut positions, &mut sizing, &Limits::default(), &mut place);
+                let edits = improve(&mut mesh, &mut positions, &mut sizing, &limits, &mut place);
                 edits.count() == 0
             });
             let q = quality(&mesh, &positions);
             assert!(rested, "{name} {target}: splits, flips and collapses undo each other");
-            assert!(q.longest_edge <= 1.35 * target && q.least_angle > 0.2, "{name} {target}: {q:?}");
+            assert!(q.longest_edge <= 1.6 * target && q.least_angle > 0.2, "{name} {target}: {q:?}");
             let poor: usize = q.inner_valences[..5].iter().sum();
             assert!(100 * poor <= mesh.vertex_count(), "{name} {target}: {q:?}");
         }
@@ -283,16 +339,51 @@ proptest! {
         }
     }
 
+    /// The proof that flips end, checked: each lowers the potential by more than 0.1, in space as in the plane.
     #[test]
-    fn flips_in_the_plane_never_lower_the_least_angle(seed in any::<u64>()) {
-        let (mut mesh, mut positions) = primitive::plane(7, 6, 1.0);
-        jitter_inside(&mesh, &mut positions, 0.35, seed);
-        let before = quality(&mesh, &positions);
-        let edits = flip_pass(&mut mesh, &positions, Seeds::All, &Limits::default());
-        prop_assert!(!edits.is_cut_short);
-        let after = quality(&mesh, &positions);
-        prop_assert!(after.mean_least_angle >= before.mean_least_angle - 1e-12);
-        prop_assert!(after.least_angle >= before.least_angle - 1e-12);
-        prop_assert!(after.least_angle < PI / 3.0);
+    fn every_flip_lowers_the_potential(seed in any::<u64>(), size in 0.0_f64..0.4) {
+        for (mut mesh, mut positions) in
+            [primitive::plane(7, 6, 1.0), primitive::icosphere(2), primitive::klein_bottle(14, 10, 1.0, 0.4)]
+        {
+            let edge = measure::mean_edge_length(&mesh, &positions);
+            jitter(&mut positions, size * edge, seed);
+            let before = potential::total(&mesh, &positions);
+            let edits = flip_pass(&mut mesh, &positions, &FREE, Seeds::All, &Limits::default());
+            prop_assert!(!edits.is_cut_short);
+            let after = potential::total(&mesh, &positions);
+            prop_assert!(after <= before - 0.1 * f64::from(u32::try_from(edits.flips).unwrap()));
+        }
+    }
+
+    /// The promise of the ledger: when a batch around what has changed finds nothing more, neither does one everywhere.
+    #[test]
+    fn what_a_ledger_leaves_out_needs_no_edit(seed in any::<u64>(), size in 0.01_f64..0.3, part in 2_usize..40) {
+        for (mut mesh, mut positions) in
+            [primitive::icosphere(3), primitive::torus(20, 12, 1.0, 0.4), primitive::plane(12, 12, 0.15)]
+        {
+            let mut sizing = Sizing::Uniform(measure::mean_edge_length(&mesh, &positions));
+            let (mut ledger, limits) = (Ledger::default(), Limits { growth: 1.0, ..Limits::default() });
+            for round in 0..3 {
+                let slack = if round == 1 { 0.02 } else { 0.0 };
+                let mut moved = positions.clone();
+                jitter(&mut moved, size * 0.15, seed.wrapping_add(round));
+                for (k, p) in positions.iter_mut().enumerate() {
+                    *p = if k % part == 0 { moved[k] } else { *p };
+                }
+                let mut step = |slack, may_collapse| {
+                    let limits = Limits { may_collapse, ..limits };
+                    let ledger = (&mut ledger, slack);
+                    improve_changed(&mut mesh, &mut positions, &mut sizing, ledger, &limits, &mut midpoint).count()
+                };
+                step(slack, true);
+                // The last batch that may collapse is answered by some that may not, and then none does anything.
+                let counts: Vec<_> = (0..40).map(|k| step(0.0, k < 20)).take_while(|&count| count > 0).collect();
+                prop_assert!(counts.len() < 40, "comes to no end: {counts:?}");
+                let limits = Limits { may_collapse: counts.len() < 20, ..limits };
+                prop_assert_eq!(validate(&mesh), Ok(()));
+                let whole = improve(&mut mesh.clone(), &mut positions.clone(), &mut sizing, &limits, &mut midpoint);
+                prop_assert_eq!(whole.count(), 0, "{:?}", whole);
+            }
+        }
     }
 }
