@@ -42,14 +42,14 @@ fn is_as_before(bench: &mut Bench, energy: f64, nodes: usize) {
     let after = bench.rest(600);
     assert!((after / energy - 1.0).abs() < 0.01, "energy {energy} became {after}");
     let count = surface(bench).mesh.vertices().count();
-    // Edges are split from 1.35 spacings on and collapsed below 0.72: between the two the mesh may have any density.
+    // Edges are split from 1.33 spacings on and collapsed below 0.66: between the two the mesh may have any density.
     assert!((count as f64 / nodes as f64 - 1.0).abs() < 0.25, "{nodes} nodes became {count}");
-    // Corners sharper than 15 degrees are mended, so none is left; ninety-nine in a hundred are far wider.
+    // All triangles, those at the controls too; `quality` asks more of the others.
     let (least, percentile) = quality(surface(bench));
     println!(
         "{count} nodes, energy {energy} -> {after}, least angle {least:.1}, first percentile {percentile:.1}"
     );
-    assert!(least > 15.0 && percentile > 25.0, "least angle {least:.1}, first percentile {percentile:.1}");
+    assert!(least > 28.0 && percentile > 37.0, "least angle {least:.1}, first percentile {percentile:.1}");
 }
 
 #[test]

@@ -201,10 +201,10 @@ fn improving_ends_and_keeps_the_surface_whatever_the_positions_and_targets() {
                 }
                 // A place that is none is not taken.
                 let mut nowhere = |_: &Mesh, _: &[DVec3], _| DVec3::NAN;
-                remesh::split_long(&mut mesh, &mut positions, &mut sizing, &limits, &mut nowhere);
-                remesh::flip_pass(&mut mesh, &positions, Seeds::All, &limits);
-                remesh::collapse_crowded(&mut mesh, &positions, &sizing, &limits);
-                remesh::repair_valence(&mut mesh, &positions, &sizing, &limits);
+                remesh::split_long(&mut mesh, &mut positions, &mut sizing, Seeds::All, &limits, &mut nowhere);
+                remesh::flip_pass(&mut mesh, &positions, &sizing, Seeds::All, &limits);
+                remesh::collapse_short(&mut mesh, &positions, &sizing, Seeds::All, &limits);
+                remesh::repair_valence(&mut mesh, &positions, &sizing, Seeds::All, &limits);
                 is_whole(&says, &mesh, &positions, &was, &start);
             }
         }
