@@ -5,7 +5,9 @@ use crate::model::Model;
 use crate::region::{self, Choice, solver_objective};
 use crate::shape::{CurveShape, SurfaceShape};
 use ductile_mesh::VertexId;
-use ductile_solver::{CurveSettings, CurveSolver, Predicted, Rings, Settings, SolverError, SurfaceSolver};
+use ductile_solver::{
+    Aim, CurveSettings, CurveSolver, Predicted, Rings, Settings, SolverError, SurfaceSolver,
+};
 use ductile_spec::{CurveId, Document, Objective, PointId, SurfaceId};
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -168,7 +170,7 @@ impl BoundSurface {
     /// Moves free vertices towards even spacing; returns whether any moved noticeably.
     pub(crate) fn smooth(&mut self, fraction: f64) -> bool {
         let movable: Vec<bool> = self.solver.fixed().iter().map(|fixed| !fixed).collect();
-        self.solver.smooth(&mut self.positions, &movable, fraction).moved > 0
+        self.solver.smooth_graded(&mut self.positions, &movable, fraction, Aim::Shapely, None).moved > 0
     }
 
     /// Brings fits, normals and energy up to the positions. Costs nothing when they are.

@@ -7,7 +7,7 @@ mod native {
     use ductile_mesh::remesh::{Ledger, Limits, Sizing, improve_changed, midpoint};
     use ductile_mesh::{EdgeId, Mesh, VertexId};
     use ductile_solver::workload::{self, Stream};
-    use ductile_solver::{Rings, place_on_edge, smooth};
+    use ductile_solver::{Aim, Rings, place_on_edge, smooth};
     use glam::DVec3;
 
     /// Edge length at which the torus comes out with about 10,000 nodes.
@@ -85,7 +85,7 @@ mod native {
                 bound = Bound::new(mesh, positions);
             }
             let movable = vec![true; bound.vertices.len()];
-            smooth(&bound.rings, &mut bound.positions, &movable, SMOOTHING, None);
+            smooth(&bound.rings, &mut bound.positions, &movable, SMOOTHING, Aim::Shapely, None);
             for (v, at) in bound.vertices.iter().zip(&bound.positions) {
                 positions[v.index()] = *at;
             }

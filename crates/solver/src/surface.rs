@@ -39,7 +39,7 @@ use crate::precondition::Preconditioner;
 use crate::predictor::{self, Parts, Predicted, Predictor};
 use crate::report::StepReport;
 use crate::rings::Rings;
-use crate::smooth::{self, SmoothReport};
+use crate::smooth::{self, Aim, SmoothReport};
 
 use matrix::{Matrix, Scratch};
 use sleep::Sleep;
@@ -325,10 +325,10 @@ impl SurfaceSolver {
     /// # Panics
     /// When the arrays do not have one entry per node.
     pub fn smooth(&mut self, positions: &mut [DVec3], movable: &[bool], fraction: f64) -> SmoothReport {
-        self.smooth_graded(positions, movable, fraction, None)
+        self.smooth_graded(positions, movable, fraction, Aim::Even, None)
     }
 
-    /// The same on a graded mesh: triangles are weighed by `area / h*²` with the wanted edge length of each node.
+    /// The same with a choice of aim, and on a graded mesh: triangles are weighed by `area / h*²` with the wanted edge length of each node.
     ///
     /// # Panics
     /// When the arrays do not have one entry per node.
@@ -337,10 +337,11 @@ impl SurfaceSolver {
         positions: &mut [DVec3],
         movable: &[bool],
         fraction: f64,
+        aim: Aim,
         lengths: Option<&[f64]>,
     ) -> SmoothReport {
         assert_eq!(positions.len(), self.rings.len(), "one position per node");
-        let report = smooth::smooth(&self.rings, positions, movable, fraction, lengths);
+        let report = smooth::smooth(&self.rings, positions, movable, fraction, aim, lengths);
         if report.moved > 0 {
             self.quiet_steps = 0;
         }

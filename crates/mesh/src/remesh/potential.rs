@@ -56,7 +56,7 @@ pub(super) fn total(mesh: &Mesh, positions: &[DVec3]) -> f64 {
         cotangents(a, b, c)
     };
     let triangles: f64 = mesh.faces().map(of_face).sum();
-    triangles + mesh.vertices().map(|v| surplus(mesh, v).powi(2)).sum::<f64>()
+    triangles + mesh.vertices().map(|v| surplus(mesh, v)).map(|x| x * x).sum::<f64>()
 }
 
 fn surplus(mesh: &Mesh, v: VertexId) -> f64 {
