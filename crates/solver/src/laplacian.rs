@@ -58,28 +58,33 @@ impl Laplacian {
     #[expect(clippy::cast_possible_truncation, reason = "spokes and nodes are counted by u32")]
     pub(crate) fn new(rings: &Rings, unknowns: &Unknowns, acting: Acting) -> Result<Self, FactorError> {
         let mut edge_of_slot = vec![FIXED; rings.spokes()];
-        let mut columns: Vec<Vec<(u32, u32)>> = vec![Vec::new(); unknowns.len()];
-        let mut edges = Vec::new();
+        let mut edges = Vec::with_capacity(rings.spokes() / 2);
+        let mut starts = vec![0_u32; unknowns.len() + 1];
         for (slot, from, to) in rings.edges() {
             edge_of_slot[slot] = edges.len() as u32;
             let mut pair = [unknowns.index[from], unknowns.index[to]];
             pair.sort_unstable();
             if pair[1] != FIXED {
-                columns[pair[1] as usize].push((pair[0], edges.len() as u32));
+                starts[pair[1] as usize + 1] += 1;
             }
             let sense = if acting == Acting::OnOffsets { rings.sense(slot) } else { 1.0 };
             edges.push(Edge { unknowns: pair, place: FIXED, sense });
         }
-        let (mut starts, mut rows, mut diagonal) = (vec![0], Vec::new(), Vec::new());
-        for (column, entries) in columns.iter_mut().enumerate() {
-            entries.sort_unstable();
-            for &(row, edge) in &*entries {
-                edges[edge as usize].place = rows.len() as u32;
-                rows.push(row);
-            }
-            diagonal.push(rows.len() as u32);
-            rows.push(column as u32);
-            starts.push(rows.len() as u32);
+        for column in 0..unknowns.len() {
+            starts[column + 1] += starts[column] + 1;
+        }
+        // The diagonal comes last in its column. Before it the rows ascend: edges are in order of their lower node.
+        let diagonal: Vec<u32> = starts[1..].iter().map(|&end| end - 1).collect();
+        let mut rows = vec![0_u32; starts[unknowns.len()] as usize];
+        for (column, &place) in (0_u32..).zip(&diagonal) {
+            rows[place as usize] = column;
+        }
+        let mut next = starts.clone();
+        for edge in edges.iter_mut().filter(|edge: &&mut Edge| edge.unknowns[1] != FIXED) {
+            let place = &mut next[edge.unknowns[1] as usize];
+            edge.place = *place;
+            rows[*place as usize] = edge.unknowns[0];
+            *place += 1;
         }
         Ok(Self {
             triangles: triangles(rings, &edge_of_slot),
@@ -192,14 +197,17 @@ fn triangles(rings: &Rings, edge_of_slot: &[u32]) -> Vec<([u32; 3], [u32; 3])> {
         let place = rings.ring(from).iter().position(|&far| far == to);
         place.map_or(0, |place| edge_of_slot[rings.slots(from).start + place])
     };
+    let of_spoke = |node: usize, place: usize| edge_of_slot[rings.slots(node).start + place];
     let mut triangles = Vec::new();
     for (node, index) in (0..rings.len()).zip(0_u32..) {
         let ring = rings.ring(node);
         let gaps = crate::neighbourhood::gaps(ring.len(), rings.is_boundary(node));
         for place in 0..gaps {
-            let (b, c) = (ring[place], ring[(place + 1) % ring.len()]);
+            let next = if place + 1 == ring.len() { 0 } else { place + 1 };
+            let (b, c) = (ring[place], ring[next]);
             if index < b && index < c {
-                triangles.push(([index, b, c], [edge(b, c), edge(index, c), edge(index, b)]));
+                let opposite = [edge(b, c), of_spoke(node, next), of_spoke(node, place)];
+                triangles.push(([index, b, c], opposite));
             }
         }
     }
