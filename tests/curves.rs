@@ -3,7 +3,9 @@
 #![allow(clippy::unwrap_used, reason = "a failing test should stop where it fails")]
 
 use acceptance::Bench;
-use ductile_spec::{CurveId, Edit, Example, Objective, ObjectiveOf, PointId, Request, Through};
+use ductile_spec::{
+    CurveId, Edit, Example, GrabTarget, Objective, ObjectiveOf, PointId, Request, Through, to_text,
+};
 use glam::DVec3;
 
 const CURVE: CurveId = CurveId(1);
@@ -107,4 +109,51 @@ fn tangents_that_are_none_are_refused_and_change_nothing() {
     }
     assert_eq!(bench.document, before);
     assert_eq!(nodes(&bench), places);
+}
+
+/// Largest distance of a curve's samples from those of a finer one.
+fn off_curve(bench: &Bench, fine: &Bench) -> f64 {
+    let fine = nodes(fine);
+    let distance = |p: DVec3, a: DVec3, b: DVec3| {
+        let along = ((p - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
+        p.distance(a.lerp(b, along))
+    };
+    let nearest = |p: DVec3| {
+        (0..fine.len())
+            .map(|i| distance(p, fine[i], fine[(i + 1) % fine.len()]))
+            .fold(f64::INFINITY, f64::min)
+    };
+    nodes(bench).into_iter().map(nearest).fold(0.0, f64::max)
+}
+
+/// The thesis's figures 2.7 and 8.1: a control point made near another and dragged leaves the curve fair, at any sampling.
+#[test]
+fn a_control_beside_another_leaves_the_curve_fair() {
+    let mut bench = Bench::with(Example::Disc);
+    bench.rest(300);
+    let home = bench.document().points[&PointId(1)];
+    let beside = nodes(&bench).into_iter().find(|p| (0.12..0.3).contains(&p.distance(home))).unwrap();
+    bench.edit(Edit::Insert { curve: CURVE, at: beside });
+    let point = *bench.document().points.keys().last().unwrap();
+    let start = bench.document().points[&point];
+    bench.accept(Request::Grab(GrabTarget::Point(point)));
+    for step in 1..=12 {
+        bench.step(Some(start * (1.0 + 0.01 * f64::from(step))));
+    }
+    bench.accept(Request::Drop);
+    bench.rest(600);
+    let at = |spacing: f64| {
+        let mut document = bench.document();
+        document.spacing = Some(spacing);
+        document.surfaces.clear();
+        let mut other = Bench::new();
+        other.accept(Request::OpenText { text: to_text(&document) });
+        other.rest(600);
+        other
+    };
+    let fine = at(0.005);
+    let (here, coarse, half) =
+        (off_curve(&bench, &fine), off_curve(&at(0.08), &fine), off_curve(&at(0.04), &fine));
+    assert!(here < 2e-3, "{here}");
+    assert!(coarse / half > 2.8, "{coarse} {half}");
 }
