@@ -152,6 +152,23 @@ mod tests {
         }
     }
 
+    #[test]
+    fn a_direction_without_curvature_ends_it_with_what_there_is() {
+        // Positive along the first two entries, negative along the third.
+        let apply = |x: &[f64], y: &mut [f64]| {
+            y.copy_from_slice(&[x[0], 2.0 * x[1], -9.0 * x[2]]);
+        };
+        let limit = Limit { iterations: 9, tolerance: 0.0 };
+        let plain = <[f64]>::clone_from_slice_into;
+        let mut x = vec![0.0; 3];
+        let outcome = solve(apply, plain, &[0.0, 0.0, 1.0], &mut x, limit, &mut Workspace::default());
+        assert_eq!((outcome.iterations, x), (0, vec![0.0; 3]));
+        let mut x = vec![0.0; 3];
+        let outcome = solve(apply, plain, &[1.0, 1.0, 0.1], &mut x, limit, &mut Workspace::default());
+        assert!(outcome.iterations > 0 && x.iter().all(|x| x.is_finite()));
+        assert!(dot(&x, &[1.0, 1.0, 0.1]) > 0.0);
+    }
+
     /// No preconditioner.
     trait CloneInto {
         fn clone_from_slice_into(source: &Self, target: &mut Self);

@@ -108,3 +108,39 @@ impl Preconditioner {
         self.laplacian.solve_around(&self.mass, r, z);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fits::Wanted;
+    use crate::objective::Goals;
+    use crate::workload;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    /// Whether a stretch of all edges makes the numbers stale, after a solve of so many iterations.
+    fn is_refreshed(stretch: f64, iterations: u32) -> bool {
+        let disc = workload::disc(4);
+        let rings = Rings::from_triangles(disc.positions.len(), &disc.triangles).unwrap();
+        let goals = Goals::default();
+        let unknowns = Unknowns::new(disc.fixed.iter().map(|fixed| !fixed));
+        let mut preconditioner = Preconditioner::new(&rings, &unknowns, Acting::OnOffsets).unwrap();
+        let mut fits = Fits::new(&rings, &goals);
+        fits.refit(&rings, &goals, &disc.positions, Wanted::Energy);
+        preconditioner.prepare(&fits, &unknowns, |_, _| 0.0).unwrap();
+        preconditioner.served(iterations);
+        let before = preconditioner.lengths.clone();
+        let stretched: Vec<_> = disc.positions.iter().map(|&p| p * stretch).collect();
+        fits.refit(&rings, &goals, &stretched, Wanted::Energy);
+        preconditioner.prepare(&fits, &unknowns, |_, _| 0.0).unwrap();
+        preconditioner.lengths != before
+    }
+
+    #[test]
+    fn numbers_are_refreshed_when_edges_changed_or_when_they_served_badly() {
+        assert!(!is_refreshed(1.1, 10), "it served well, and a tenth is not much");
+        assert!(is_refreshed(1.1, 11), "it served badly");
+        assert!(!is_refreshed(1.01, 11), "hardly anything changed: it was not the numbers' fault");
+        assert!(is_refreshed(1.25, 3), "a quarter is too much");
+    }
+}

@@ -36,18 +36,26 @@ impl SurfaceSolver {
         // Nothing left to gain, or nothing to go by.
         if !(slope < -NOISE * energy) || !slope.is_finite() || !energy.is_finite() {
             report.damped = !(slope.is_finite() && energy.is_finite());
+            if !report.damped && self.damping > 1.0 {
+                // So little may be left because of the damping alone.
+                self.damping = (self.damping * DAMPING_LOWER).max(1.0);
+                return;
+            }
             // A gradient of rounding errors need not let the conjugate gradients converge: then it must show three times.
             self.quiet_steps = if report.damped { 0 } else { self.quiet_steps + 1 };
             let is_sure = is_converged || (report.cg_iterations > 0 && self.quiet_steps >= REST_STEPS);
             report.at_rest = !report.damped && is_sure;
             return;
         }
+        // A damped direction is short because it is damped, which says nothing about rest; unless no damping helps.
+        let is_free = self.damping <= 1.0;
+        let is_telling = is_converged && (is_free || self.damping >= DAMPING_MAX);
         let found = self.search(slope);
         report.halvings = found.halvings;
         report.step_scale = found.scale;
         report.predicted_decrease = -slope * found.scale;
         self.quiet_steps =
-            if -slope < REST_DECREASE * energy && is_converged { self.quiet_steps + 1 } else { 0 };
+            if -slope < REST_DECREASE * energy && is_telling { self.quiet_steps + 1 } else { 0 };
         if !found.is_accepted {
             self.damping = (self.damping * DAMPING_RAISE).min(DAMPING_MAX);
             report.damped = true;
@@ -70,6 +78,7 @@ impl SurfaceSolver {
         let is_small = report.largest_relative_move < REST_MOVE
             && found.halvings == 0
             && report.residual <= self.settings.step_tolerance
+            && is_free
             && (self.goals.network.is_none() || -slope < REST_VARIATION * energy);
         report.at_rest = is_small || self.quiet_steps >= REST_STEPS;
     }
@@ -93,5 +102,100 @@ impl SurfaceSolver {
             matrix::slopes(&self.goals, &self.rings, trial, &self.unknowns, rhs, scratch);
             -2.0 * cg::dot(rhs, &self.alpha)
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::workload;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    /// A raised disc with the exact slopes in hand.
+    fn ready() -> (SurfaceSolver, Vec<DVec3>) {
+        let (mut solver, positions) = workload::raised_disc(6, 0.3).unwrap();
+        solver.evaluate(&positions);
+        solver.slopes();
+        (solver, positions)
+    }
+
+    fn report(solver: &SurfaceSolver, residual: f64, cg_iterations: u32) -> StepReport {
+        let energy = solver.energy();
+        StepReport { energy_before: energy, energy, residual, cg_iterations, ..StepReport::default() }
+    }
+
+    #[test]
+    fn a_direction_that_leads_uphill_is_given_up_after_twenty_halvings_and_damps_the_next() {
+        let (mut solver, mut positions) = ready();
+        let before = positions.clone();
+        // Both turned round: the slope claims a descent that is none.
+        solver.rhs.iter_mut().for_each(|value| *value = -*value);
+        solver.alpha = solver.rhs.clone();
+        let mut wanted = 1.0;
+        for _ in 0..10 {
+            let mut report = report(&solver, 0.0, 5);
+            solver.advance(&mut positions, &mut report);
+            wanted = f64::min(10.0 * wanted, 1e8);
+            assert_eq!((report.halvings, report.damped, report.step_scale), (20, true, 0.0));
+            assert_eq!(solver.damping, wanted);
+            assert_eq!(positions, before);
+        }
+        // A step that succeeds lowers the damping again, in the end to what it was.
+        let mut last = solver.damping;
+        for _ in 0..30 {
+            let report = solver.step(&mut positions, crate::Budget::default()).unwrap();
+            assert!(!report.damped, "{report:?}");
+            assert!(solver.damping < last || last == 1.0, "{} after {last}: {report:?}", solver.damping);
+            last = solver.damping;
+            if report.at_rest {
+                break;
+            }
+        }
+        assert_eq!(last, 1.0, "no rest is claimed before the damping is gone");
+    }
+
+    #[test]
+    fn three_steps_of_hardly_any_decrease_are_rest() {
+        let (mut solver, mut positions) = ready();
+        for step in 1..=3 {
+            solver.evaluate(&positions);
+            solver.slopes();
+            let squares = cg::dot(&solver.rhs, &solver.rhs);
+            let share = 0.1 * REST_DECREASE * solver.energy() / squares;
+            solver.alpha = solver.rhs.iter().map(|value| share * value).collect();
+            // A residual that does not let a small move count by itself.
+            let mut report = report(&solver, 0.2, 5);
+            solver.advance(&mut positions, &mut report);
+            assert!(!report.damped);
+            assert_eq!(report.at_rest, step == 3, "step {step}");
+        }
+    }
+
+    #[test]
+    fn a_slope_of_rounding_errors_is_rest_at_once_if_the_direction_is_sure_and_else_the_third_time() {
+        let (mut solver, mut positions) = ready();
+        solver.rhs.fill(0.0);
+        solver.alpha = solver.rhs.clone();
+        let mut sure = report(&solver, 0.0, 5);
+        solver.advance(&mut positions, &mut sure);
+        assert!(sure.at_rest && !sure.damped);
+        solver.quiet_steps = 0;
+        for step in 1..=3 {
+            let mut unsure = report(&solver, 1.0, 5);
+            solver.advance(&mut positions, &mut unsure);
+            assert_eq!(unsure.at_rest, step == 3, "step {step}");
+        }
+    }
+
+    #[test]
+    fn a_direction_that_is_no_number_is_not_rest() {
+        let (mut solver, mut positions) = ready();
+        let before = positions.clone();
+        solver.alpha = vec![f64::NAN; solver.rhs.len()];
+        let mut report = report(&solver, 0.0, 5);
+        solver.advance(&mut positions, &mut report);
+        assert!(report.damped && !report.at_rest);
+        assert_eq!(positions, before);
     }
 }
