@@ -16,8 +16,11 @@
 //! ```
 
 mod bends;
+mod couples;
 mod fair;
 mod hinge;
+mod hub;
+mod network;
 mod neutral;
 mod objective;
 mod price;
@@ -34,6 +37,7 @@ use crate::factor::FactorError;
 use crate::objective::Objective;
 use crate::predictor::{self, Predicted};
 
+pub use network::{Network, Spoke, Strand};
 pub use resample::{Resampled, resample, respace};
 
 use bends::Bends;
@@ -111,6 +115,8 @@ pub struct CurveSolver {
     fixed: Vec<bool>,
     /// Prescribed unit tangents, by fixed node in ascending order.
     given: Vec<(usize, DVec3)>,
+    /// Fixed nodes whose tangents a network turns, in ascending order.
+    turning: Vec<usize>,
     settings: CurveSettings,
     /// The first length and radius seen: how long a curve without a control polygon may get, and how large it is.
     first_size: Option<(f64, f64)>,
@@ -136,8 +142,8 @@ impl CurveSolver {
         check_length(node_count, fixed.len())?;
         let chain = Chain { count: node_count, closed };
         Ok(Self {
-            offsets: System::new(chain, &fixed, 2, reach(settings.objective))?,
-            fields: System::new(chain, &fixed, 1, reach(Objective::ThinPlate))?,
+            offsets: System::new(chain, &fixed, &[], 2, reach(settings.objective))?,
+            fields: System::new(chain, &fixed, &[], 1, reach(Objective::ThinPlate))?,
             bends: Bends::new(chain, &[]),
             trial: Bends::new(chain, &[]),
             trial_positions: vec![DVec3::ZERO; node_count],
@@ -149,6 +155,7 @@ impl CurveSolver {
             chain,
             fixed,
             given: Vec::new(),
+            turning: Vec::new(),
             settings,
         })
     }
@@ -157,10 +164,14 @@ impl CurveSolver {
     pub fn set_fixed(&mut self, fixed: Vec<bool>) -> Result<(), SolverError> {
         check_length(self.chain.count, fixed.len())?;
         if fixed != self.fixed {
-            self.offsets = System::new(self.chain, &fixed, 2, reach(self.settings.objective))?;
-            self.fields = System::new(self.chain, &fixed, 1, reach(Objective::ThinPlate))?;
+            self.offsets = System::new(self.chain, &fixed, &[], 2, reach(self.settings.objective))?;
+            self.fields = System::new(self.chain, &fixed, &[], 1, reach(Objective::ThinPlate))?;
             self.fixed = fixed;
             self.quiet_steps = 0;
+            if !self.turning.is_empty() {
+                self.turning.clear();
+                self.hinge();
+            }
             let mut given = std::mem::take(&mut self.given);
             given.retain(|(node, _)| self.fixed[*node]);
             self.clamp(given);
@@ -205,11 +216,30 @@ impl CurveSolver {
 
     fn clamp(&mut self, given: Vec<(usize, DVec3)>) {
         if given != self.given {
-            self.bends = Bends::new(self.chain, &given);
-            self.trial = Bends::new(self.chain, &given);
             self.given = given;
-            self.quiet_steps = 0;
+            self.hinge();
         }
+    }
+
+    /// Sets up the hinges; tangents that turn are given later.
+    fn hinge(&mut self) {
+        let turning = self.turning.iter().map(|&node| (node, DVec3::X));
+        let mut clamps: BTreeMap<usize, DVec3> = turning.collect();
+        clamps.extend(self.given.iter().copied());
+        let clamps: Vec<(usize, DVec3)> = clamps.into_iter().collect();
+        self.bends = Bends::new(self.chain, &clamps);
+        self.trial = Bends::new(self.chain, &clamps);
+        self.quiet_steps = 0;
+    }
+
+    /// Changes which tangents a network turns: ascending fixed nodes without a prescribed tangent.
+    fn set_turning(&mut self, turning: Vec<usize>) -> Solved<()> {
+        if turning != self.turning {
+            self.offsets = System::new(self.chain, &self.fixed, &turning, 2, reach(self.settings.objective))?;
+            self.turning = turning;
+            self.hinge();
+        }
+        Ok(())
     }
 
     /// Carries moved control points by a smooth field; as [`SurfaceSolver::predict`](crate::SurfaceSolver::predict).
@@ -230,7 +260,9 @@ impl CurveSolver {
             // Every control point goes along, and so does the whole curve, exactly.
             field.fill(first);
         } else {
-            self.fields.carry(&self.bends, &mut field)?;
+            // Tangents that are free to turn go along as they will.
+            let hinges = self.bends.without_clamps(&self.turning);
+            self.fields.carry(&hinges, &mut field)?;
         }
         let strain = self.strain(&field);
         let fraction =

@@ -33,6 +33,12 @@ pub enum SolverError {
     /// The connectivity is not one the solver can work with.
     #[error(transparent)]
     Rings(#[from] RingError),
+    /// A curve whose objective has no energy, or lets it kink at its control points, cannot share a hub.
+    #[error("curve {0} of the network minimises nothing that could be shared at a hub")]
+    NoPartInNetwork(u32),
+    /// More curves meet at the hubs of one network than its dense system is made for.
+    #[error("{0} curves meet at hubs, too many to be solved together")]
+    TooManySpokes(usize),
     /// The preconditioner could not be factorised; happens on positions that are degenerate beyond use only.
     #[error(transparent)]
     Factor(#[from] FactorError),

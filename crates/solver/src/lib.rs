@@ -47,7 +47,7 @@ mod smooth;
 mod surface;
 pub mod workload;
 
-pub use curve::{CurveSettings, CurveSolver, Resampled, resample, respace};
+pub use curve::{CurveSettings, CurveSolver, Network, Resampled, Spoke, Strand, resample, respace};
 pub use error::{Budget, Settings, SolverError};
 pub use factor::FactorError;
 pub use fit::Curvature;

@@ -35,6 +35,37 @@ impl Bends {
         }
     }
 
+    /// Gives the clamps of a node another tangent; what was measured there is out of date then.
+    pub(super) fn aim(&mut self, node: usize, tangent: DVec3) {
+        for hinge in self.hinges.iter_mut().filter(|hinge| hinge.node == node && hinge.is_clamp()) {
+            if hinge.before.is_none() {
+                hinge.behind = tangent;
+            } else {
+                hinge.ahead = tangent;
+            }
+        }
+    }
+
+    /// The hinges, with a plain one for the two at each of some clamps.
+    pub(super) fn without_clamps(&self, nodes: &[usize]) -> Vec<Hinge> {
+        let mut hinges: Vec<Hinge> = Vec::with_capacity(self.hinges.len());
+        for hinge in &self.hinges {
+            if nodes.binary_search(&hinge.node).is_err() {
+                hinges.push(*hinge);
+            } else if let (Some(last), Some(after)) =
+                (hinges.last_mut().filter(|last| last.node == hinge.node), hinge.after)
+            {
+                last.after = Some(after);
+                last.measure(&self.positions);
+            } else {
+                hinges.push(*hinge);
+            }
+        }
+        // The end of an open curve is no hinge.
+        hinges.retain(|hinge| !hinge.is_clamp() || nodes.binary_search(&hinge.node).is_err());
+        hinges
+    }
+
     /// Measures the curve and prices it.
     pub(super) fn measure(&mut self, chain: Chain, positions: &[DVec3], character: Character) {
         self.positions.copy_from_slice(positions);

@@ -14,6 +14,7 @@
 use glam::DVec3;
 
 use super::bends::Bends;
+use super::hinge::{Answer, Hinge};
 use super::price::Price;
 use super::{Chain, fair, neutral};
 use crate::barrier;
@@ -87,11 +88,39 @@ impl Bends {
     /// Exact `dE/dp` under an objective; of `neutral`, what it wants to vanish.
     pub(super) fn gradient(&self, chain: Chain, character: Character, gradient: &mut [DVec3]) {
         gradient.fill(DVec3::ZERO);
-        let Character { share, fold, objective, price } = character;
+        if character.objective == Objective::Neutral {
+            neutral::add_forces(chain, &self.hinges, gradient);
+        }
+        self.each_answer(chain, character, |hinge, answer| hinge.scatter(answer, gradient));
+        let pull = character.price.slope(self.length);
+        if pull != 0.0 {
+            self.add_length_gradient(chain, pull, gradient);
+        }
+    }
+
+    /// Exact `dE/dt` by the tangents of clamps: written over the entries of their nodes.
+    pub(super) fn pull_on_tangents(
+        &self,
+        chain: Chain,
+        character: Character,
+        nodes: &[usize],
+        pulls: &mut [DVec3],
+    ) {
+        nodes.iter().for_each(|&node| pulls[node] = DVec3::ZERO);
+        self.each_answer(chain, character, |hinge, answer| {
+            if hinge.is_clamp() && nodes.binary_search(&hinge.node).is_ok() {
+                pulls[hinge.node] += if hinge.before.is_none() { answer.behind } else { answer.ahead };
+            }
+        });
+    }
+
+    /// What the energy feels at every hinge.
+    fn each_answer(&self, chain: Chain, character: Character, mut take: impl FnMut(&Hinge, &Answer)) {
+        let Character { share, fold, objective, .. } = character;
         match objective {
             Objective::ThinPlate => {
                 for hinge in self.hinges.iter().filter(|hinge| hinge.is_sound) {
-                    hinge.scatter(&hinge.bending_answer(share, fold), gradient);
+                    take(hinge, &hinge.bending_answer(share, fold));
                 }
             }
             Objective::Fair => {
@@ -100,23 +129,18 @@ impl Bends {
                     if hinge.is_sound {
                         lengths += hinge.bending_answer(share, fold);
                         hinge.add_binormal_answer(binormal, &mut lengths);
-                        hinge.scatter(&lengths, gradient);
+                        take(hinge, &lengths);
                     }
                 }
             }
             Objective::Neutral => {
-                neutral::add_forces(chain, &self.hinges, gradient);
                 for hinge in
                     self.hinges.iter().filter(|hinge| hinge.is_sound && hinge.jacobian < barrier::START)
                 {
-                    hinge.scatter(&hinge.bending_answer(0.0, fold), gradient);
+                    take(hinge, &hinge.bending_answer(0.0, fold));
                 }
             }
             Objective::Membrane => {}
-        }
-        let pull = price.slope(self.length);
-        if pull != 0.0 {
-            self.add_length_gradient(chain, pull, gradient);
         }
     }
 }

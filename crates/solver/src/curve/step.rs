@@ -16,16 +16,18 @@ use crate::objective::Objective;
 use crate::report::StepReport;
 
 /// Move below which a step counts as rest, in units of the local edge.
-const REST_MOVE: f64 = 1e-3;
+pub(super) const REST_MOVE: f64 = 1e-3;
 /// Predicted decrease below which a step counts towards rest, relative to the energy; three such steps make rest.
-const REST_DECREASE: f64 = 1e-6;
-const REST_STEPS: u32 = 3;
+pub(super) const REST_DECREASE: f64 = 1e-6;
+pub(super) const REST_STEPS: u32 = 3;
 /// Decrease that rounding could fake.
-const NOISE: f64 = 1e-14;
-const MAX_HALVINGS: u32 = 20;
-const SUFFICIENT: f64 = 1e-4;
+pub(super) const NOISE: f64 = 1e-14;
+pub(super) const MAX_HALVINGS: u32 = 20;
+pub(super) const SUFFICIENT: f64 = 1e-4;
+/// A move in units of the local edge that a failed search may leave undone.
+pub(super) const UNSEEN: f64 = 1e-9;
 /// A direction of which the clamp leaves less than this comes from a rough curve.
-const ROUGH: f64 = 0.25;
+pub(super) const ROUGH: f64 = 0.25;
 /// A rough curve is smoothed as long as that promises to take this part of its bending.
 const SMOOTHING: f64 = 1e-3;
 
@@ -55,6 +57,8 @@ impl CurveSolver {
     /// `neutral` is not what it follows and may rise.)
     pub fn step(&mut self, positions: &mut [DVec3]) -> Result<StepReport, SolverError> {
         check_positions(self.chain.count, positions)?;
+        // Alone, a curve is in no network.
+        self.set_turning(Vec::new())?;
         self.measure(positions);
         let energy = self.bends.energy;
         let mut report = StepReport { energy_before: energy, energy, ..StepReport::default() };
@@ -89,6 +93,8 @@ impl CurveSolver {
         }
         match found {
             Some(found) => self.accept(positions, taken, found, &mut report),
+            // A straight line has no energy to compare with: what is left are the roundings of its places.
+            None if self.damping <= 1.0 && self.relative(&own.moves) < UNSEEN => report.at_rest = true,
             None => {
                 self.damp(&mut report);
                 report.at_rest = self.quiet_steps >= REST_STEPS;
@@ -97,9 +103,14 @@ impl CurveSolver {
         Ok(report)
     }
 
+    /// Largest move in units of the length that belongs to its node.
+    pub(super) fn relative(&self, moves: &[DVec3]) -> f64 {
+        moves.iter().zip(&self.bends.ds).fold(0.0, |largest, (offset, ds)| largest.max(offset.length() / ds))
+    }
+
     /// A chord that runs straight against its prescribed tangent is pulled to no side at all, though it may be at the top
     /// of a hill: its free end is moved aside a little, if that costs nothing.
-    fn unfold(&mut self, positions: &mut [DVec3]) {
+    pub(super) fn unfold(&mut self, positions: &mut [DVec3]) {
         let is_stuck = |jacobian: f64| jacobian < AGAINST;
         if !self.bends.hinges.iter().any(|h| h.is_clamp() && h.is_sound && is_stuck(h.jacobian)) {
             return;
@@ -212,7 +223,7 @@ impl CurveSolver {
     }
 
     /// Below half a radius of curvature, and no edge sheared by more than one half.
-    fn first_scale(&self, moves: &[DVec3]) -> f64 {
+    pub(super) fn first_scale(&self, moves: &[DVec3]) -> f64 {
         let mut worst = 0.5_f64;
         for (offset, curvature) in moves.iter().zip(&self.bends.curvatures) {
             worst = worst.max(offset.length() * curvature.length());

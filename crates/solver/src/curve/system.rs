@@ -66,6 +66,8 @@ fn turn(vector: DVec3, from: DVec3, to: DVec3) -> DVec3 {
 #[derive(Clone, Debug)]
 pub(super) struct System {
     unknowns: Unknowns,
+    /// The nodes whose unknowns are not offsets but turns of their tangent (see `network`).
+    turns: Vec<bool>,
     width: usize,
     /// Upper triangle by columns.
     starts: Vec<u32>,
@@ -76,22 +78,23 @@ pub(super) struct System {
 }
 
 /// The centre of a hinge and its two neighbours, with the scalar weights of their rows. On the side of a clamp the
-/// centre stands again, without weight.
+/// centre stands again, without weight. Where the tangent of a clamp may turn, its turn takes the place of the centre.
 struct Stencil<'a> {
     hinge: &'a Hinge,
     nodes: [usize; 3],
     weights: [f64; 3],
     /// What the rows are scaled by.
     root: f64,
+    is_turning: bool,
 }
 
 impl<'a> Stencil<'a> {
     /// Rows scaled by the square root of the hinge's length.
     fn new(hinge: &'a Hinge) -> Option<Self> {
-        Self::scaled(hinge, hinge.ds.sqrt())
+        Self::scaled(hinge, hinge.ds.sqrt(), false)
     }
 
-    fn scaled(hinge: &'a Hinge, root: f64) -> Option<Self> {
+    fn scaled(hinge: &'a Hinge, root: f64, is_turning: bool) -> Option<Self> {
         if !hinge.is_sound {
             return None;
         }
@@ -100,15 +103,32 @@ impl<'a> Stencil<'a> {
         let behind = weight(hinge.before, hinge.r_behind);
         let ahead = weight(hinge.after, hinge.r_ahead);
         let nodes = [hinge.node, hinge.before.unwrap_or(hinge.node), hinge.after.unwrap_or(hinge.node)];
-        Some(Self { hinge, nodes, weights: [-(behind + ahead), behind, ahead], root })
+        let centre = match (is_turning, hinge.before) {
+            (false, _) => -(behind + ahead),
+            // κ = (a - t) / ds or (t - b) / ds, and t is what changes.
+            (true, None) => -scale,
+            (true, Some(_)) => scale,
+        };
+        Some(Self { hinge, nodes, weights: [centre, behind, ahead], root, is_turning })
     }
 }
 
 impl System {
-    /// For `width` unknowns at each free node, whose rows reach so many nodes to either side.
+    /// For `width` unknowns at each free node, whose rows reach so many nodes to either side. The tangents of the fixed
+    /// nodes `turning`, which must be clamps, are unknowns too.
     #[expect(clippy::cast_possible_truncation, reason = "seven blocks per node of a curve")]
-    pub(super) fn new(chain: Chain, fixed: &[bool], width: usize, reach: usize) -> Solved<Self> {
-        let unknowns = Unknowns::new(fixed.iter().map(|fixed| !fixed));
+    pub(super) fn new(
+        chain: Chain,
+        fixed: &[bool],
+        turning: &[usize],
+        width: usize,
+        reach: usize,
+    ) -> Solved<Self> {
+        let mut turns = vec![false; fixed.len()];
+        for &node in turning {
+            turns[node] = true;
+        }
+        let unknowns = Unknowns::new(fixed.iter().zip(&turns).map(|(fixed, turns)| !fixed || *turns));
         let (mut starts, mut rows) = (vec![0_u32], Vec::new());
         let mut near = Vec::new();
         for &node in &unknowns.nodes {
@@ -139,7 +159,7 @@ impl System {
         let cholesky = Cholesky::new(starts.clone(), rows.clone())?;
         let values = vec![0.0; rows.len()];
         let solution = vec![0.0; unknowns.len() * width];
-        Ok(Self { unknowns, width, starts, rows, values, cholesky, solution })
+        Ok(Self { unknowns, turns, width, starts, rows, values, cholesky, solution })
     }
 
     /// Solves `A alpha = -g/2` and returns the slope `g·alpha`.
@@ -169,22 +189,75 @@ impl System {
         }
         self.finish(|node| mass * bends.ds[node])?;
         let rhs = self.project(frames, gradient, -0.5);
-        self.solution.copy_from_slice(&rhs);
-        self.cholesky.solve(&mut self.solution);
-        let stiffness = 0.5 * price.curvature(bends.length);
-        if stiffness > 0.0 {
-            self.correct_for_rope(chain, bends, frames, stiffness);
-        }
+        let mut solution = std::mem::take(&mut self.solution);
+        solution.copy_from_slice(&rhs);
+        self.solve(chain, bends, frames, character, &mut solution);
+        self.solution = solution;
         Ok(-2.0 * crate::cg::dot(&rhs, &self.solution))
+    }
+
+    /// `A⁻¹ x` for the matrix of the last [`Self::newton`], rope and all.
+    fn solve(&mut self, chain: Chain, bends: &Bends, frames: &Frames, character: Character, x: &mut [f64]) {
+        self.cholesky.solve(x);
+        let stiffness = 0.5 * character.price.curvature(bends.length);
+        if stiffness > 0.0 {
+            self.correct_for_rope(chain, bends, frames, stiffness, x);
+        }
+    }
+
+    /// How the unknowns of the last [`Self::newton`] answer to a couple that turns the tangent of a node towards `along`.
+    pub(super) fn answer(
+        &mut self,
+        (chain, bends, frames, character): (Chain, &Bends, &Frames, Character),
+        node: usize,
+        along: DVec3,
+    ) -> Vec<f64> {
+        let mut x = vec![0.0; self.solution.len()];
+        let place = self.unknowns.index[node] as usize * self.width;
+        for (value, axis) in x[place..].iter_mut().zip(frames.axes[node]) {
+            *value = axis.dot(along);
+        }
+        self.solve(chain, bends, frames, character, &mut x);
+        x
+    }
+
+    /// How far an answer turns the tangent of a node towards `along`.
+    pub(super) fn turn_of(&self, answer: &[f64], frames: &Frames, node: usize, along: DVec3) -> f64 {
+        let place = self.unknowns.index[node] as usize * self.width;
+        answer[place..].iter().zip(frames.axes[node]).map(|(value, axis)| value * axis.dot(along)).sum()
+    }
+
+    /// The unknowns of the last solve.
+    pub(super) fn solution(&self) -> &[f64] {
+        &self.solution
+    }
+
+    /// Adds a multiple of an answer to the last solution.
+    pub(super) fn add_answer(&mut self, answer: &[f64], factor: f64) {
+        for (x, answer) in self.solution.iter_mut().zip(answer) {
+            *x += factor * answer;
+        }
+    }
+
+    /// Where the offset of a node stands among the unknowns.
+    fn place(&self, node: usize) -> u32 {
+        if self.turns[node] { FIXED } else { self.unknowns.index[node] }
+    }
+
+    /// Where what a stencil acts on stands among the unknowns.
+    fn places(&self, stencil: &Stencil<'_>) -> [u32; 3] {
+        let [centre, before, after] = stencil.nodes;
+        let own = if stencil.is_turning { self.unknowns.index[centre] } else { self.place(centre) };
+        [own, self.place(before), self.place(after)]
     }
 
     /// The rows of `∫ κ² ds`, each squared `share` times, with or without the answer of the curvature at the centre itself.
     fn bend(&mut self, bends: &Bends, frames: &Frames, share: f64, is_whole: bool) {
         for hinge in &bends.hinges {
             let root = if share == 1.0 { hinge.ds.sqrt() } else { (share * hinge.ds).sqrt() };
-            let Some(stencil) = Stencil::scaled(hinge, root) else { continue };
+            let Some(stencil) = Stencil::scaled(hinge, root, self.turns[hinge.node]) else { continue };
             let blocks = offset_blocks(bends, frames, &stencil, is_whole);
-            self.add_products(&stencil.nodes, &blocks);
+            self.add_products(&self.places(&stencil), &blocks);
         }
     }
 
@@ -193,19 +266,21 @@ impl System {
         for Link { first, second, ds, .. } in links(chain, &bends.hinges) {
             let root = 1.0 / ds.sqrt();
             let rows = |hinge: usize| {
-                let stencil = Stencil::scaled(&bends.hinges[hinge], root)?;
+                let hinge = &bends.hinges[hinge];
+                let stencil = Stencil::scaled(hinge, root, self.turns[hinge.node])?;
                 let blocks = offset_blocks(bends, frames, &stencil, true);
-                Some((stencil.nodes, blocks))
+                Some((hinge.node, self.places(&stencil), blocks))
             };
-            let (Some((from, from_blocks)), Some((to, to_blocks))) = (rows(first), rows(second)) else {
+            let (Some((here, from, from_blocks)), Some((there, to, to_blocks))) = (rows(first), rows(second))
+            else {
                 continue;
             };
-            let carry = frames.relation(bends, from[0], to[0]);
+            let carry = frames.relation(bends, here, there);
             let carried = from_blocks.map(|block| negated_product(carry, block));
-            let nodes = [from[0], from[1], from[2], to[0], to[1], to[2]];
+            let places = [from[0], from[1], from[2], to[0], to[1], to[2]];
             let [a, b, c] = carried;
             let [d, e, f] = to_blocks;
-            self.add_products(&nodes, &[a, b, c, d, e, f]);
+            self.add_products(&places, &[a, b, c, d, e, f]);
         }
     }
 
@@ -224,25 +299,36 @@ impl System {
             }
             let root = (0.5 * pull / length).sqrt();
             let far = frames.relation(bends, to, from).map(|row| row.map(|x| x * root));
-            self.add_products(&[from, to], &[[[-root, 0.0], [0.0, -root]], far]);
+            let places = [from, to].map(|node| self.place(node));
+            self.add_products(&places, &[[[-root, 0.0], [0.0, -root]], far]);
         }
     }
 
     /// The rope's own stiffness `s c cᵀ` with `c = dL/dalpha`, dense but of rank one (Sherman, Morrison 1950).
-    fn correct_for_rope(&mut self, chain: Chain, bends: &Bends, frames: &Frames, stiffness: f64) {
+    fn correct_for_rope(
+        &mut self,
+        chain: Chain,
+        bends: &Bends,
+        frames: &Frames,
+        stiffness: f64,
+        solution: &mut [f64],
+    ) {
         let mut gradient = vec![DVec3::ZERO; chain.count];
         bends.add_length_gradient(chain, 1.0, &mut gradient);
+        // A turn changes no length.
+        for (pull, _) in gradient.iter_mut().zip(&self.turns).filter(|(_, turns)| **turns) {
+            *pull = DVec3::ZERO;
+        }
         let c = self.project(frames, &gradient, 1.0);
         let mut z = c.clone();
         self.cholesky.solve(&mut z);
-        let along =
-            stiffness * crate::cg::dot(&c, &self.solution) / (1.0 + stiffness * crate::cg::dot(&c, &z));
-        for (x, z) in self.solution.iter_mut().zip(z) {
+        let along = stiffness * crate::cg::dot(&c, solution) / (1.0 + stiffness * crate::cg::dot(&c, &z));
+        for (x, z) in solution.iter_mut().zip(z) {
             *x -= along * z;
         }
     }
 
-    /// The offsets of the last solve as vectors, per node.
+    /// The offsets of the last solve as vectors, per node; at a turning node how its tangent changes.
     pub(super) fn displacements(&self, frames: &Frames, count: usize) -> Vec<DVec3> {
         let mut moves = vec![DVec3::ZERO; count];
         for (alpha, &node) in self.solution.chunks_exact(2).zip(&self.unknowns.nodes) {
@@ -268,7 +354,8 @@ impl System {
             let length = bends.positions[from].distance(bends.positions[to]).max(floor);
             if length > 0.0 {
                 let root = (0.5 / length).sqrt();
-                self.add_products(&[from, to], &[[[-root, 0.0], [0.0, 0.0]], [[root, 0.0], [0.0, 0.0]]]);
+                let places = [from, to].map(|node| self.place(node));
+                self.add_products(&places, &[[[-root, 0.0], [0.0, 0.0]], [[root, 0.0], [0.0, 0.0]]]);
             }
         }
         self.finish(|node| mass * bends.ds[node])?;
@@ -288,14 +375,14 @@ impl System {
     }
 
     /// Fills the free entries of `field` from its fixed ones.
-    pub(super) fn carry(&mut self, bends: &Bends, field: &mut [DVec3]) -> Solved<()> {
+    pub(super) fn carry(&mut self, hinges: &[Hinge], field: &mut [DVec3]) -> Solved<()> {
         self.values.fill(0.0);
         let free = self.unknowns.len();
         let mut rhs = vec![0.0; 3 * free];
-        for hinge in &bends.hinges {
+        for hinge in hinges {
             let Some(stencil) = Stencil::new(hinge) else { continue };
             let blocks = stencil.weights.map(|weight| [[weight, 0.0], [0.0, 0.0]]);
-            self.add_products(&stencil.nodes, &blocks);
+            self.add_products(&self.places(&stencil), &blocks);
             let known = stencil.nodes.iter().zip(stencil.weights);
             let bend: DVec3 = known
                 .filter(|&(&node, _)| self.unknowns.index[node] == FIXED)
@@ -318,11 +405,10 @@ impl System {
         Ok(())
     }
 
-    /// Adds `rowsᵀ rows` of one stencil, whose rows act on each node through a 2 × 2 block.
-    fn add_products(&mut self, nodes: &[usize], blocks: &[[[f64; 2]; 2]]) {
-        for (&a, block_a) in nodes.iter().zip(blocks) {
-            for (&b, block_b) in nodes.iter().zip(blocks) {
-                let (a, b) = (self.unknowns.index[a], self.unknowns.index[b]);
+    /// Adds `rowsᵀ rows` of one stencil, whose rows act on each of these unknowns through a 2 × 2 block.
+    fn add_products(&mut self, places: &[u32], blocks: &[[[f64; 2]; 2]]) {
+        for (&a, block_a) in places.iter().zip(blocks) {
+            for (&b, block_b) in places.iter().zip(blocks) {
                 if a == FIXED || b == FIXED {
                     continue;
                 }
@@ -353,8 +439,10 @@ impl System {
         for (scalar, &end) in self.starts[1..].iter().enumerate() {
             // Rows are sorted, so the diagonal is the last of its column.
             let value = &mut self.values[end as usize - 1];
-            *value =
-                *value * (1.0 + DIAGONAL_SHIFT) + mass(self.unknowns.nodes[scalar / self.width] as usize);
+            let node = self.unknowns.nodes[scalar / self.width] as usize;
+            // A turn is bounded by its own clamp.
+            let mass = if self.turns[node] { 0.0 } else { mass(node) };
+            *value = *value * (1.0 + DIAGONAL_SHIFT) + mass;
             if !(*value > 0.0) {
                 *value = 1.0;
             }
@@ -380,7 +468,7 @@ fn offset_blocks(
     let scaled =
         |from: usize, weight: f64| frames.relation(bends, from, centre).map(|row| row.map(|x| x * weight));
     let mut own = [[stencil.weights[0], 0.0], [0.0, stencil.weights[0]]];
-    if is_whole {
+    if is_whole && !stencil.is_turning {
         let kappa = frames.axes[centre].map(|axis| axis.dot(stencil.hinge.curvature));
         for i in 0..2 {
             for j in 0..2 {
