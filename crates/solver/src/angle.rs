@@ -107,14 +107,53 @@ pub(crate) fn angle<T: Real>(height: T, base: T) -> T {
     turned + T::choose(is_obtuse, -rest, rest)
 }
 
+/// A direction by its angle and the cosine and sine of that.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Direction {
+    pub(crate) angle: f64,
+    pub(crate) cos: f64,
+    pub(crate) sin: f64,
+}
+
+impl Direction {
+    /// The direction of an angle.
+    pub(crate) fn at(angle: f64) -> Self {
+        let (sin, cos) = libm::sincos(angle);
+        Self { angle, cos, sin }
+    }
+}
+
+/// Sine and cosine of an angle, reckoned from a known one where it lies within 45 degrees of that.
+#[inline(always)]
+pub(crate) fn direction_near<T: Real>(angle: T, known: &Direction) -> (T, T) {
+    let x = angle - T::splat(known.angle);
+    let square = x * x;
+    let (sine, cosine) = near_zero(x, square);
+    let (known_sin, known_cos) = (T::splat(known.sin), T::splat(known.cos));
+    let (sin, cos) = (cosine * known_sin + sine * known_cos, cosine * known_cos - sine * known_sin);
+    let is_near = square.less(T::splat(FRAC_PI_4 * FRAC_PI_4));
+    if T::all(is_near) {
+        return (sin, cos);
+    }
+    let (other_sin, other_cos) = direction(angle);
+    (T::choose(is_near, sin, other_sin), T::choose(is_near, cos, other_cos))
+}
+
+/// Sine and cosine of `|x| <= π/4`.
+#[inline(always)]
+fn near_zero<T: Real>(x: T, square: T) -> (T, T) {
+    let sine = x + x * (square * polynomial(SINE, square));
+    let cosine = (T::splat(1.0) - T::splat(0.5) * square) + square * square * polynomial(COSINE, square);
+    (sine, cosine)
+}
+
 /// Sine and cosine of an angle from 0 to a few turns.
 #[inline(always)]
 pub(crate) fn direction<T: Real>(angle: T) -> (T, T) {
     let quarters = angle * T::splat(FRAC_2_PI) + T::splat(ROUNDER) - T::splat(ROUNDER);
     let x = angle - quarters * T::splat(QUARTER_HIGH) - quarters * T::splat(QUARTER_LOW);
     let square = x * x;
-    let sine = x + x * (square * polynomial(SINE, square));
-    let cosine = (T::splat(1.0) - T::splat(0.5) * square) + square * square * polynomial(COSINE, square);
+    let (sine, cosine) = near_zero(x, square);
     // quarters mod 4, as 0, 1, 2 or 3, without leaving the floating-point numbers.
     let quarter = quarters * T::splat(0.25);
     let below = quarter - T::splat(0.375) + T::splat(ROUNDER) - T::splat(ROUNDER);
@@ -219,6 +258,20 @@ mod tests {
             assert!((sin - sine).abs() <= 4e-16 && (cos - cosine).abs() <= 4e-16, "{angle}");
         }
         assert_eq!(direction(0.0), (0.0, 1.0));
+    }
+
+    #[test]
+    fn directions_near_a_known_one_are_those_of_the_library() {
+        let mut stream = Stream::new(9);
+        for turn in 0..200_000 {
+            let known = Direction::at(std::f64::consts::TAU * stream.unit());
+            // Well within its range, and every now and then beyond it.
+            let reach = if turn % 10 == 0 { 1.6 } else { 0.78 };
+            let angle = (known.angle + reach * (2.0 * stream.unit() - 1.0)).max(0.0);
+            let ((sin, cos), (sine, cosine)) = (direction_near(angle, &known), libm::sincos(angle));
+            assert!((sin - sine).abs() <= 6e-16 && (cos - cosine).abs() <= 6e-16, "{angle}");
+        }
+        assert_eq!(direction_near(0.0, &Direction::at(0.0)), (0.0, 1.0));
     }
 
     #[test]

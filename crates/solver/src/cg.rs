@@ -18,6 +18,8 @@ pub(crate) struct Outcome {
     pub(crate) iterations: u32,
     /// Relative residual in the preconditioner's norm; 0 when the right-hand side is zero.
     pub(crate) residual: f64,
+    /// `b·P⁻¹b`, to which the residual is relative.
+    pub(crate) reference: f64,
 }
 
 /// Vectors kept between solves.
@@ -31,11 +33,24 @@ pub(crate) struct Workspace {
 
 /// Improves `x` towards `A x = b`; `x` comes in as the first guess.
 pub(crate) fn solve(
+    apply: impl FnMut(&[f64], &mut [f64]),
+    precondition: impl FnMut(&[f64], &mut [f64]),
+    b: &[f64],
+    x: &mut [f64],
+    limit: Limit,
+    workspace: &mut Workspace,
+) -> Outcome {
+    solve_again(apply, precondition, b, x, limit, None, workspace)
+}
+
+/// The same where `b·P⁻¹b` is known well enough from a like right-hand side, which saves an application of `P⁻¹`.
+pub(crate) fn solve_again(
     mut apply: impl FnMut(&[f64], &mut [f64]),
     mut precondition: impl FnMut(&[f64], &mut [f64]),
     b: &[f64],
     x: &mut [f64],
     limit: Limit,
+    reference: Option<f64>,
     workspace: &mut Workspace,
 ) -> Outcome {
     let Workspace { r, z, p, q } = workspace;
@@ -43,10 +58,13 @@ pub(crate) fn solve(
         vector.clear();
         vector.resize(b.len(), 0.0);
     }
-    precondition(b, z);
-    let reference = dot(b, z);
     r.copy_from_slice(b);
-    if x.iter().any(|&value| value != 0.0) {
+    let has_guess = x.iter().any(|&value| value != 0.0);
+    let reference = reference.filter(|_| has_guess).unwrap_or_else(|| {
+        precondition(b, z);
+        dot(b, z)
+    });
+    if has_guess {
         apply(x, q);
         for (r, &q) in r.iter_mut().zip(&*q) {
             *r -= q;
@@ -54,7 +72,7 @@ pub(crate) fn solve(
         precondition(r, z);
     }
     let mut rho = dot(r, z);
-    let mut outcome = Outcome::default();
+    let mut outcome = Outcome { reference, ..Outcome::default() };
     // Also leaves at once when anything is NaN.
     if !(reference > 0.0 && rho.is_finite()) {
         return outcome;

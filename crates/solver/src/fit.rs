@@ -26,7 +26,7 @@ use glam::DVec3;
 use crate::barrier;
 use crate::dense::{self, Matrix5};
 use crate::lanes::{Real, Vector};
-use crate::neighbourhood::Ring;
+use crate::neighbourhood::{Ring, Spoke};
 
 /// Eigenvalue of `M` below which a direction of the fit is faded out.
 pub(crate) const FILTER: f64 = 0.02;
@@ -218,28 +218,70 @@ pub(crate) fn careful_moments(ring: &Ring<f64>) -> (Matrix5<f64>, [Vector<f64>; 
     if ring.is_boundary { moments::<f64, 3>(ring) } else { moments::<f64, 5>(ring) }
 }
 
-/// `M = SᵀS` and `Sᵀe`.
+/// `M = SᵀS` and `Sᵀe`, from the sums of the monomials of `u` and `v`: the basis is made of them.
 #[inline(always)]
 fn moments<T: Real, const N: usize>(ring: &Ring<T>) -> (Matrix5<T>, [Vector<T>; 5]) {
+    if N == 3 { boundary_moments(ring) } else { inner_moments(ring) }
+}
+
+#[inline(always)]
+fn inner_moments<T: Real>(ring: &Ring<T>) -> (Matrix5<T>, [Vector<T>; 5]) {
+    let zero = T::splat(0.0);
+    // Of second, third and fourth order, by falling powers of `u`.
+    let (mut second, mut third, mut fourth) = ([zero; 3], [zero; 4], [zero; 5]);
+    for &Spoke { u, v, .. } in &ring.spokes[..ring.degree] {
+        let (uu, uv, vv) = (u * u, u * v, v * v);
+        add(&mut second, [uu, uv, vv]);
+        add(&mut third, [u * uu, v * uu, u * vv, v * vv]);
+        add(&mut fourth, [uu * uu, uu * uv, uu * vv, uv * vv, vv * vv]);
+    }
+    let (half, root) = (T::splat(0.5), T::splat(FRAC_1_SQRT_2));
+    let (quarter, mixed) = (T::splat(0.25), T::splat(0.5 * FRAC_1_SQRT_2));
+    let (uuu, uuv, uvv, vvv) = (half * third[0], third[1], third[2], half * third[3]);
+    let m13 = [uuu, root * uuv, half * uvv];
+    let m23 = [half * uuv, root * uvv, vvv];
+    let (m34, m35) = (mixed * fourth[1], quarter * fourth[2]);
+    let (m44, m45) = (half * fourth[2], mixed * fourth[3]);
+    let m = [
+        [second[0], second[1], m13[0], m13[1], m13[2]],
+        [second[1], second[2], m23[0], m23[1], m23[2]],
+        [m13[0], m23[0], quarter * fourth[0], m34, m35],
+        [m13[1], m23[1], m34, m44, m45],
+        [m13[2], m23[2], m35, m45, quarter * fourth[4]],
+    ];
+    let mut b = [Vector::zero(); 5];
+    for &Spoke { chord, u, v, .. } in &ring.spokes[..ring.degree] {
+        b[0] += chord * u;
+        b[1] += chord * v;
+        b[2] += chord * (u * u);
+        b[3] += chord * (u * v);
+        b[4] += chord * (v * v);
+    }
+    (m, [b[0], b[1], b[2] * half, b[3] * root, b[4] * half])
+}
+
+/// On the boundary the basis is `u`, `v` and `u²/2`.
+#[inline(always)]
+fn boundary_moments<T: Real>(ring: &Ring<T>) -> (Matrix5<T>, [Vector<T>; 5]) {
     let mut m = Matrix5::<T>::default();
     let mut b = [Vector::zero(); 5];
-    let inverse_h = T::splat(1.0) / ring.h;
     for j in 0..ring.degree {
-        let row = ring.basis(ring.uv(j, inverse_h));
-        let chord = ring.chords[j];
-        for i in 0..N {
-            for k in 0..=i {
+        let row = ring.basis(ring.uv(j));
+        for i in 0..3 {
+            for k in 0..3 {
                 m[i][k] += row[i] * row[k];
             }
-            b[i] += chord * row[i];
-        }
-    }
-    for i in 0..N {
-        for k in 0..i {
-            m[k][i] = m[i][k];
+            b[i] += ring.spokes[j].chord * row[i];
         }
     }
     (m, b)
+}
+
+#[inline(always)]
+fn add<T: Real, const N: usize>(sums: &mut [T; N], terms: [T; N]) {
+    for (sum, term) in sums.iter_mut().zip(terms) {
+        *sum += term;
+    }
 }
 
 /// `D = f(M) Sᵀe`
@@ -266,17 +308,18 @@ fn second_form<T: Real>(fit: &mut Fit<T>, squared: T) {
 /// Twice the area of the parametric fan: the sum of `r_j r_{j+1} sin(scaled angle)`.
 #[inline(always)]
 fn fan<T: Real>(ring: &Ring<T>) -> T {
+    let gaps = ring.gaps();
     let mut sum = T::splat(0.0);
-    for j in 0..ring.gaps() {
-        let next = ring.next(j);
-        sum += ring.r[j] * ring.r[next] * (ring.cos[j] * ring.sin[next] - ring.sin[j] * ring.cos[next]);
+    for pair in ring.spokes[..=gaps].windows(2) {
+        sum += pair[0].u * pair[1].v - pair[0].v * pair[1].u;
     }
-    sum
+    sum * (ring.h * ring.h)
 }
 
 /// Unit sum of the triangles' area vectors: the normal where no quadratic gives one.
 fn facet_normal(ring: &Ring<f64>) -> Vector<f64> {
-    let sum: DVec3 = (0..ring.gaps()).map(|j| ring.chords[j].cross(ring.chords[ring.next(j)]).lane(0)).sum();
+    let sum: DVec3 =
+        (0..ring.gaps()).map(|j| ring.spokes[j].chord.cross(ring.spokes[ring.next(j)].chord).lane(0)).sum();
     let normal = sum.try_normalize().unwrap_or(DVec3::Z);
     Vector::gather(|_| normal)
 }

@@ -12,22 +12,26 @@ use crate::batch::Batch;
 use crate::energy::fair::Variation;
 use crate::energy::thin_plate::{self, Demand};
 use crate::error::check_positions;
-use crate::fit::{self, CarefulFit, Curvature, Fit, Kind};
+use crate::fit::{self, CarefulFit, Curvature, Kind};
 use crate::gradient::Backward;
 use crate::lanes::{Pair, Real};
 use crate::neighbourhood::Ring;
 use crate::objective::Goals;
+use crate::ordinary::{Ordinary, write_rows};
 use crate::rings::{MAX_RING, Rings};
 
 /// One over the area of the unit sphere.
 pub(crate) const PER_SPHERE: f64 = 0.25 * std::f64::consts::FRAC_1_PI;
 
 /// What a sweep should make.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Wanted {
     /// Fits and energy.
+    #[default]
     Energy,
-    /// The gradient and the rows too.
+    /// The rows too.
+    Rows,
+    /// The gradient too.
     Gradient,
 }
 
@@ -76,27 +80,28 @@ pub(crate) struct Fits {
     pub(crate) variation: Option<Variation>,
     /// The batches that are fitted, by place, if some are left as they are; their nodes cannot have moved.
     pub(crate) active: Option<Vec<usize>>,
-    has_gradient: bool,
+    /// What there is.
+    has: Wanted,
 }
 
 /// Scratch of a sweep, and what it should make.
 #[derive(Debug)]
 struct Sweep<'a> {
     goals: &'a Goals,
-    makes_gradient: bool,
+    wanted: Wanted,
     pair: Ring<Pair>,
-    pair_back: Backward<Pair>,
+    pair_back: Ordinary<Pair>,
     single: Ring<f64>,
     single_back: Backward<f64>,
 }
 
 impl<'a> Sweep<'a> {
-    fn new(goals: &'a Goals, makes_gradient: bool) -> Self {
+    fn new(goals: &'a Goals, wanted: Wanted) -> Self {
         Self {
             goals,
-            makes_gradient,
+            wanted,
             pair: Ring::default(),
-            pair_back: Backward::default(),
+            pair_back: Ordinary::default(),
             single: Ring::default(),
             single_back: Backward::default(),
         }
@@ -116,40 +121,47 @@ impl Fits {
             rows: vec![Row::default(); rows],
             variation: goals.network.as_ref().map(|network| Variation::new(rings, network)),
             active: None,
-            has_gradient: false,
+            has: Wanted::Energy,
         }
+    }
+
+    /// Whether the newest fits are of these positions.
+    pub(crate) fn are_at(&self, positions: &[DVec3]) -> bool {
+        self.positions == positions
     }
 
     /// Fits every node, unless the last call did so at these positions.
     pub(crate) fn refit(&mut self, rings: &Rings, goals: &Goals, positions: &[DVec3], wanted: Wanted) {
-        if self.positions == positions && (self.has_gradient || wanted == Wanted::Energy) {
+        if self.are_at(positions) && wanted <= self.has {
             return;
         }
         self.positions.copy_from_slice(positions);
-        self.has_gradient = wanted == Wanted::Gradient;
-        if self.has_gradient {
+        self.has = wanted;
+        let makes_gradient = wanted == Wanted::Gradient;
+        if makes_gradient {
             self.gradient.fill(DVec3::ZERO);
         }
         let mut others = 0.0;
         // What edges ask of the nodes at their ends is known when all nodes are fitted: that takes two sweeps.
         if self.variation.is_some() {
-            self.sweep(rings, &mut Sweep::new(goals, false));
+            let first = if makes_gradient { Wanted::Energy } else { wanted };
+            self.sweep(rings, &mut Sweep::new(goals, first));
         }
         if let (Some(variation), Some(skin)) = (&mut self.variation, &goals.skin) {
             variation.measure(&self.positions, &self.nodes, skin.area(&self.positions) * PER_SPHERE);
             others += variation.energy * variation.scale;
-            if self.has_gradient {
+            if makes_gradient {
                 variation.differentiate(&self.positions, &self.nodes, &mut self.gradient);
                 skin.add_gradient(&self.positions, variation.energy * PER_SPHERE, &mut self.gradient);
             }
         }
-        if self.variation.is_none() || self.has_gradient {
-            self.sweep(rings, &mut Sweep::new(goals, self.has_gradient));
+        if self.variation.is_none() || makes_gradient {
+            self.sweep(rings, &mut Sweep::new(goals, wanted));
         }
         if let Some(film) = &goals.film {
             let price = 1.0 / (goals.radius * goals.radius);
             others += film.area(&self.positions) * price;
-            if self.has_gradient {
+            if makes_gradient {
                 film.add_gradient(&self.positions, price, &mut self.gradient);
             }
         }
@@ -220,17 +232,24 @@ impl Fits {
             };
             self.keep(rings, node, lane, ring, true);
         }
-        if sweep.makes_gradient {
+        if sweep.wanted >= Wanted::Rows {
+            let rows = &mut self.rows[batch.rows()];
+            write_rows::<Pair, N>(ring, &fit, |j, c, value| rows[j][c] = value.to_array());
+        }
+        if sweep.wanted >= Wanted::Gradient {
             let bending = self.bending::<Pair>(batch.nodes);
-            let demand = Demand { weight, bending, slope: Pair::splat(0.0) };
-            let adjoint = thin_plate::adjoint(&fit, ring.h, &demand);
+            let adjoint = thin_plate::normal_adjoint(&fit, ring.h, weight, bending);
             let turning = self.turning::<Pair>(rings, batch.nodes);
             sweep.pair_back.run::<N>(ring, &fit, &adjoint, turning.as_ref());
             for lane in 0..batch.count {
-                self.scatter(rings, batch.nodes[lane], lane, &sweep.pair_back);
+                let chords = sweep.pair_back.ends.iter().map(|end| end.chord.lane(lane));
+                scatter(
+                    &mut self.gradient,
+                    rings.ring(batch.nodes[lane] as usize),
+                    batch.nodes[lane],
+                    chords,
+                );
             }
-            let rows = &mut self.rows[batch.rows()];
-            write_rows::<Pair, N>(ring, &fit, |j, c, value| rows[j][c] = value.to_array());
         }
         true
     }
@@ -254,7 +273,7 @@ impl Fits {
             l: fit.l,
         };
         self.keep(rings, node, 0, ring, careful.is_fitted());
-        if !sweep.makes_gradient {
+        if sweep.wanted < Wanted::Rows {
             return;
         }
         let rows = &mut self.rows[batch.rows()];
@@ -265,12 +284,15 @@ impl Fits {
         }
         if careful.is_fitted() {
             write_rows::<f64, 5>(ring, fit, |j, c, value| rows[j][c][lane] = value);
-            let bending = self.bending::<f64>([index; 2]);
+        }
+        if careful.is_fitted() && sweep.wanted >= Wanted::Gradient {
+            let bending = self.bending::<f64>([index; 2]).unwrap_or_default();
             let demand = Demand { weight: price.plate, bending, slope: barrier::slope(fit.jacobian) };
             let adjoint = thin_plate::adjoint(fit, ring.h, &demand);
             let turning = self.turning::<f64>(rings, [index; 2]);
             sweep.single_back.run_carefully(ring, &careful, &adjoint, turning.as_ref());
-            self.scatter(rings, index, 0, &sweep.single_back);
+            let chords = sweep.single_back.chords.iter().map(|bar| bar.lane(0));
+            scatter(&mut self.gradient, rings.ring(node), index, chords);
         }
     }
 
@@ -278,24 +300,22 @@ impl Fits {
     #[inline(always)]
     fn keep<T: Real>(&mut self, rings: &Rings, node: usize, lane: usize, ring: &Ring<T>, is_fitted: bool) {
         let slots = rings.slots(node);
-        for (length, r) in self.lengths[slots.clone()].iter_mut().zip(&ring.r) {
-            *length = r.lane(lane);
+        for (length, spoke) in self.lengths[slots.clone()].iter_mut().zip(&ring.spokes) {
+            *length = spoke.r.lane(lane);
         }
         if let Some(variation) = &mut self.variation {
             variation.is_fitted[node] = is_fitted;
-            for (direction, (cos, sin)) in
-                variation.directions[slots].iter_mut().zip(ring.cos.iter().zip(&ring.sin))
-            {
-                *direction = [cos.lane(lane), sin.lane(lane)];
+            for (direction, spoke) in variation.directions[slots].iter_mut().zip(&ring.spokes) {
+                *direction = [spoke.cos.lane(lane), spoke.sin.lane(lane)];
             }
         }
     }
 
     /// What edges ask of the curvature of one node per lane.
     #[inline(always)]
-    fn bending<T: Real>(&self, nodes: [u32; 2]) -> [T; 3] {
-        let Some(variation) = &self.variation else { return [T::splat(0.0); 3] };
-        std::array::from_fn(|c| T::gather(|lane| variation.bending[nodes[lane] as usize][c]))
+    fn bending<T: Real>(&self, nodes: [u32; 2]) -> Option<[T; 3]> {
+        let variation = self.variation.as_ref()?;
+        Some(std::array::from_fn(|c| T::gather(|lane| variation.bending[nodes[lane] as usize][c])))
     }
 
     /// What edges ask of the angles around one node per lane.
@@ -309,18 +329,17 @@ impl Fits {
         }
         Some(turning)
     }
+}
 
-    /// Adds what a node's chords feel to their ends.
-    #[inline(always)]
-    fn scatter<T: Real>(&mut self, rings: &Rings, node: u32, lane: usize, back: &Backward<T>) {
-        let mut sum = DVec3::ZERO;
-        for (&far, bar) in rings.ring(node as usize).iter().zip(&back.chords) {
-            let bar = bar.lane(lane);
-            self.gradient[far as usize] += bar;
-            sum += bar;
-        }
-        self.gradient[node as usize] -= sum;
+/// Adds what a node's chords feel to their ends.
+#[inline(always)]
+fn scatter(gradient: &mut [DVec3], ring: &[u32], node: u32, chords: impl Iterator<Item = DVec3>) {
+    let mut sum = DVec3::ZERO;
+    for (&far, bar) in ring.iter().zip(chords) {
+        gradient[far as usize] += bar;
+        sum += bar;
     }
+    gradient[node as usize] -= sum;
 }
 
 /// How much the plate of two nodes weighs, in the gradient and in the figure that is shown.
@@ -336,32 +355,6 @@ fn energy_of(careful: &CarefulFit, weight: f64) -> f64 {
         Kind::Folded => barrier::value(careful.fit.jacobian),
         Kind::Plain | Kind::Filtered => {
             weight * thin_plate::value(&careful.fit) + barrier::value(careful.fit.jacobian)
-        }
-    }
-}
-
-/// The rows `√a Z / h²` of the neighbours, and `√a L²` in the centre's place.
-#[inline(always)]
-fn write_rows<T: Real, const N: usize>(ring: &Ring<T>, fit: &Fit<T>, mut write: impl FnMut(usize, usize, T)) {
-    let root = fit.area.sqrt();
-    let squared = fit::square(fit.l);
-    for c in 0..3 {
-        write(0, c, root * squared[c]);
-    }
-    let inverse_h = T::splat(1.0) / ring.h;
-    let factor = root * inverse_h * inverse_h;
-    for j in 0..ring.degree {
-        let basis = ring.basis(ring.uv(j, inverse_h));
-        for c in 0..3 {
-            let mut sum = T::splat(0.0);
-            if c + 2 < N {
-                let weights = &fit.inverse[c + 2];
-                sum = weights[0] * basis[0];
-                for i in 1..N {
-                    sum += weights[i] * basis[i];
-                }
-            }
-            write(j + 1, c, sum * factor);
         }
     }
 }
@@ -389,7 +382,7 @@ mod tests {
         together.refit(&rings, &goals, &positions, Wanted::Gradient);
         let mut alone = Fits::new(&rings, &goals);
         alone.positions.copy_from_slice(&positions);
-        let mut sweep = Sweep::new(&goals, true);
+        let mut sweep = Sweep::new(&goals, Wanted::Gradient);
         for batch in rings.batches() {
             for lane in 0..batch.count {
                 alone.fit_single(&rings, batch, lane, &mut sweep);
@@ -420,5 +413,19 @@ mod tests {
         fits.refit(&rings, &goals, &positions, Wanted::Gradient);
         assert!(fits.gradient.iter().any(|g| *g != DVec3::ZERO));
         assert_eq!(fits.energy.to_bits(), energy.to_bits());
+    }
+
+    #[test]
+    fn rows_are_the_same_with_and_without_the_gradient() {
+        let (rings, positions) = rough();
+        let goals = Goals::default();
+        let (mut plain, mut full) = (Fits::new(&rings, &goals), Fits::new(&rings, &goals));
+        plain.refit(&rings, &goals, &positions, Wanted::Rows);
+        full.refit(&rings, &goals, &positions, Wanted::Gradient);
+        assert_eq!(plain.rows, full.rows);
+        assert!(plain.gradient.iter().all(|g| *g == DVec3::ZERO));
+        // Asked for later at the same positions, the gradient is made up for.
+        plain.refit(&rings, &goals, &positions, Wanted::Gradient);
+        assert_eq!(plain.gradient, full.gradient);
     }
 }

@@ -1,4 +1,6 @@
-//! The exact gradient of the discrete energy, by reverse mode through one neighbourhood (or two side by side).
+//! The exact gradient of the discrete energy at a node whatever its state, by reverse mode through its neighbourhood.
+//!
+//! Ordinary nodes, which are nearly all, take a shorter way ([`ordinary`](crate::ordinary)); this one is for the others.
 //!
 //! Source: recipe section 3; the numbered steps below are its numbers. Angles, radii, areas, normals and the spectral
 //! filter are all differentiated: the terms that the literal scheme freezes do not vanish at the solution.
@@ -51,25 +53,6 @@ struct Exceptions {
 }
 
 impl<T: Real> Backward<T> {
-    /// The derivative with respect to every chord of ordinary fits.
-    ///
-    /// `turning` is what else there is to the derivative with respect to every `theta_j`.
-    #[inline(always)]
-    pub(crate) fn run<const N: usize>(
-        &mut self,
-        ring: &Ring<T>,
-        fit: &Fit<T>,
-        adjoint: &Adjoint<T>,
-        turning: Option<&[T; MAX_RING]>,
-    ) {
-        self.begin(ring);
-        self.through_fit::<N>(ring, fit, adjoint);
-        self.add_turning(ring, turning);
-        self.through_area(ring, adjoint.area);
-        self.through_angles(ring);
-        self.through_lengths(ring);
-    }
-
     #[inline(always)]
     fn add_turning(&mut self, ring: &Ring<T>, turning: Option<&[T; MAX_RING]>) {
         for (theta, &turning) in self.theta[..ring.degree].iter_mut().zip(turning.into_iter().flatten()) {
@@ -84,7 +67,7 @@ impl<T: Real> Backward<T> {
         self.along[..degree].fill(T::splat(0.0));
         let zero = T::splat(0.0);
         for j in 0..degree {
-            let inverse = T::choose(zero.less(ring.r[j]), T::splat(1.0) / ring.r[j], zero);
+            let inverse = T::choose(zero.less(ring.spokes[j].r), T::splat(1.0) / ring.spokes[j].r, zero);
             (self.inverse[j], self.inverse_square[j]) = (inverse, inverse * inverse);
         }
     }
@@ -95,10 +78,10 @@ impl<T: Real> Backward<T> {
         let x = weights::<T, N>(fit, adjoint);
         let inverse_h = T::splat(1.0) / ring.h;
         for j in 0..ring.degree {
-            let (u, v) = ring.uv(j, inverse_h);
+            let (u, v) = ring.uv(j);
             let row = ring.basis((u, v));
             let mut q = x[0] * row[0];
-            let mut residual = ring.chords[j] - fit.d[0] * row[0];
+            let mut residual = ring.spokes[j].chord - fit.d[0] * row[0];
             for i in 1..N {
                 q += x[i] * row[i];
                 residual -= fit.d[i] * row[i];
@@ -130,8 +113,9 @@ impl<T: Real> Backward<T> {
             u_bar += v * mixed;
             v_bar += u * mixed + v * row_bar[4];
         }
-        self.r[j] = (u_bar * ring.cos[j] + v_bar * ring.sin[j]) * inverse_h;
-        self.theta[j] = (v_bar * ring.cos[j] - u_bar * ring.sin[j]) * ring.r[j] * inverse_h;
+        self.r[j] = (u_bar * ring.spokes[j].cos + v_bar * ring.spokes[j].sin) * inverse_h;
+        self.theta[j] =
+            (v_bar * ring.spokes[j].cos - u_bar * ring.spokes[j].sin) * ring.spokes[j].r * inverse_h;
         u_bar * u + v_bar * v
     }
 
@@ -141,11 +125,11 @@ impl<T: Real> Backward<T> {
         let sixth = area_bar * T::splat(1.0 / 6.0);
         for j in 0..ring.gaps() {
             let next = ring.next(j);
-            let sin = ring.cos[j] * ring.sin[next] - ring.sin[j] * ring.cos[next];
-            let cos = ring.cos[j] * ring.cos[next] + ring.sin[j] * ring.sin[next];
-            self.r[j] += sixth * ring.r[next] * sin;
-            self.r[next] += sixth * ring.r[j] * sin;
-            self.gap[j] = sixth * ring.r[j] * ring.r[next] * cos;
+            let sin = ring.spokes[j].cos * ring.spokes[next].sin - ring.spokes[j].sin * ring.spokes[next].cos;
+            let cos = ring.spokes[j].cos * ring.spokes[next].cos + ring.spokes[j].sin * ring.spokes[next].sin;
+            self.r[j] += sixth * ring.spokes[next].r * sin;
+            self.r[next] += sixth * ring.spokes[j].r * sin;
+            self.gap[j] = sixth * ring.spokes[j].r * ring.spokes[next].r * cos;
         }
     }
 
@@ -157,8 +141,8 @@ impl<T: Real> Backward<T> {
         // theta_j = s cum_j, gap_j = s angle_j, s = target / total
         let (mut scale_bar, mut cumulative) = (zero, zero);
         for j in 0..degree {
-            scale_bar += self.theta[j] * cumulative + self.gap[j] * ring.angle[j];
-            cumulative += ring.angle[j];
+            scale_bar += self.theta[j] * cumulative + self.gap[j] * ring.spokes[j].angle;
+            cumulative += ring.spokes[j].angle;
         }
         let total_bar = if ring.is_total_true { -(scale_bar * ring.scale / ring.total) } else { zero };
         // Angle j turns every later chord: run backwards over the sum of their theta_bar.
@@ -167,13 +151,13 @@ impl<T: Real> Backward<T> {
             if j < gaps {
                 let angle_bar = ring.scale * (later + self.gap[j]) + total_bar;
                 let next = ring.next(j);
-                let (near, far) = (ring.chords[j], ring.chords[next]);
-                let length = ring.cross_length[j];
+                let (near, far) = (ring.spokes[j].chord, ring.spokes[next].chord);
+                let length = ring.spokes[j].cross_length;
                 // Collinear chords have no plane to turn in.
-                let is_plane = (ring.r[j] * ring.r[next] * T::splat(COLLINEAR)).less(length);
+                let is_plane = (ring.spokes[j].r * ring.spokes[next].r * T::splat(COLLINEAR)).less(length);
                 let factor = T::choose(is_plane, angle_bar / length, zero);
                 // (a x b) x a = b (a.a) - a (a.b): across, and along the chord itself, where the length adds its part.
-                let along = factor * ring.dot[j];
+                let along = factor * ring.spokes[j].dot;
                 self.chords[j] -= far * factor;
                 self.chords[next] -= near * factor;
                 self.along[j] += along * self.inverse_square[j];
@@ -187,7 +171,7 @@ impl<T: Real> Backward<T> {
     #[inline(always)]
     fn through_lengths(&mut self, ring: &Ring<T>) {
         for j in 0..ring.degree {
-            self.chords[j] += ring.chords[j] * (self.along[j] + self.r[j] * self.inverse[j]);
+            self.chords[j] += ring.spokes[j].chord * (self.along[j] + self.r[j] * self.inverse[j]);
         }
     }
 }
@@ -231,13 +215,14 @@ impl Backward<f64> {
         let inverse_h = 1.0 / ring.h;
         let mut h_bar = adjoint.h;
         for j in 0..ring.degree {
-            let (u, v) = ring.uv(j, inverse_h);
+            let (u, v) = ring.uv(j);
             let row = ring.basis((u, v));
             let mut q = Vector::zero();
             let mut row_bar = [0.0; 5];
             for i in 0..5 {
                 q += x[i] * row[i];
-                row_bar[i] = ring.chords[j].dot(x[i]) + (0..5).map(|k| filter[i][k] * row[k]).sum::<f64>();
+                row_bar[i] =
+                    ring.spokes[j].chord.dot(x[i]) + (0..5).map(|k| filter[i][k] * row[k]).sum::<f64>();
             }
             self.chords[j] = q;
             h_bar -= self.through_basis(ring, j, (u, v), &row_bar, inverse_h) * inverse_h;

@@ -2,7 +2,7 @@
 //!
 //! [`Pair`] is one vector register of two `f64`, natively and in wasm. Every operation used here is exact to the last
 //! bit of IEEE 754 and works on each lane alone, so a node has the same fit whichever lane it sits in and whichever
-//! node sits beside it. There is no fused multiply-add on purpose: it would give other bits where it exists.
+//! ordinary node sits beside it. There is no fused multiply-add on purpose: it would give other bits where it exists.
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 

@@ -37,12 +37,12 @@ pub(crate) fn first_scale(rings: &Rings, fits: &Fits, unknowns: &Unknowns, alpha
     for (node, fit) in fits.nodes.iter().enumerate() {
         worst = worst.max(offset(node).abs() * fit.curvature().largest());
     }
-    for (slot, from, to) in rings.edges() {
+    rings.edges().for_each(|(slot, from, to)| {
         let shear = (offset(from) - rings.sense(slot) * offset(to)).abs();
         let length = fits.lengths[slot];
         // An edge of no length would stop everything; measure it by its ring instead.
         worst = worst.max(shear / length.max(0.1 * fits.nodes[from].h).max(f64::MIN_POSITIVE));
-    }
+    });
     0.5 / worst
 }
 
@@ -57,6 +57,8 @@ pub(crate) struct Search<'a> {
     pub(crate) alpha: &'a [f64],
     /// `g·alpha`, negative.
     pub(crate) slope: f64,
+    /// What will be asked of the accepted fits.
+    pub(crate) wanted: Wanted,
 }
 
 impl Search<'_> {
@@ -94,8 +96,8 @@ impl Search<'_> {
             for (&node, &alpha) in self.unknowns.nodes.iter().zip(self.alpha) {
                 positions[node as usize] += self.fits.nodes[node as usize].normal * (scale * alpha);
             }
-            // With the gradient, which the next step wants: most first trials are accepted.
-            trial.refit(self.rings, self.goals, positions, Wanted::Gradient);
+            // With what comes next in mind: most first trials are accepted.
+            trial.refit(self.rings, self.goals, positions, self.wanted);
             if is_good(trial, scale) {
                 return Found { scale, halvings, is_accepted: true };
             }

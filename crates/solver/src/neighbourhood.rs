@@ -10,6 +10,7 @@ use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
 use glam::DVec3;
 
 use crate::angle;
+use crate::even_ring;
 use crate::lanes::{Real, Vector};
 use crate::rings::{MAX_RING, Rings};
 
@@ -18,25 +19,38 @@ const MIN_TOTAL: f64 = 1e-9;
 /// Sine of the angle between two chords below which they span no plane.
 pub(crate) const COLLINEAR: f64 = 1e-14;
 
+/// Room for a ring, with one more place: a closed ring repeats its first neighbour after the last, so that nothing need wrap.
+pub(crate) const ROOM: usize = MAX_RING + 1;
+
+/// A neighbour, and the angle to the next one.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Spoke<T> {
+    /// From the node to the neighbour.
+    pub(crate) chord: Vector<T>,
+    /// Its length.
+    pub(crate) r: T,
+    /// Cosine and sine of `theta_j`.
+    pub(crate) cos: T,
+    pub(crate) sin: T,
+    /// `r cos / h` and `r sin / h`.
+    pub(crate) u: T,
+    pub(crate) v: T,
+    /// The unscaled angle between the chord and the next one; 0 for the last chord of an open ring.
+    pub(crate) angle: T,
+    /// Scalar product of the chord with the next one, and the length of their cross product.
+    pub(crate) dot: T,
+    pub(crate) cross_length: T,
+}
+
 /// A node's neighbours in polar coordinates (of two nodes at once where `T` has two lanes); kept and used again.
 ///
-/// Entries beyond `degree` are left over from earlier nodes.
+/// Entries beyond `degree`, and the one repeated, are left over from earlier nodes.
 #[derive(Clone, Debug)]
 pub(crate) struct Ring<T> {
     pub(crate) degree: usize,
     pub(crate) is_boundary: bool,
-    /// From the node to its neighbours.
-    pub(crate) chords: [Vector<T>; MAX_RING],
-    /// Their lengths.
-    pub(crate) r: [T; MAX_RING],
-    /// Cosine and sine of `theta_j`.
-    pub(crate) cos: [T; MAX_RING],
-    pub(crate) sin: [T; MAX_RING],
-    /// The unscaled angle between a chord and the next one; 0 for the last chord of an open ring.
-    pub(crate) angle: [T; MAX_RING],
-    /// Scalar product of a chord with the next one, and the length of their cross product.
-    pub(crate) dot: [T; MAX_RING],
-    pub(crate) cross_length: [T; MAX_RING],
+    /// One for each neighbour; a closed ring has its first once more at the end.
+    pub(crate) spokes: [Spoke<T>; ROOM],
     /// Mean chord length; `u` and `v` are divided by it.
     pub(crate) h: T,
     /// Sum of the unscaled angles, at least the guard.
@@ -50,17 +64,10 @@ pub(crate) struct Ring<T> {
 impl<T: Real> Default for Ring<T> {
     fn default() -> Self {
         let zero = T::default();
-        let (numbers, vectors) = ([zero; MAX_RING], [Vector::zero(); MAX_RING]);
         Self {
             degree: 0,
             is_boundary: false,
-            chords: vectors,
-            r: numbers,
-            cos: numbers,
-            sin: numbers,
-            angle: numbers,
-            dot: numbers,
-            cross_length: numbers,
+            spokes: [Spoke::default(); ROOM],
             h: zero,
             total: zero,
             scale: zero,
@@ -85,9 +92,9 @@ impl<T: Real> Ring<T> {
         self.degree = near.len().min(far.len()).min(MAX_RING);
         self.is_boundary = rings.is_boundary(nodes[0]);
         let centre = Vector::<T>::gather(|lane| positions[nodes[lane]]);
-        for (chord, (&first, &second)) in self.chords.iter_mut().zip(near.iter().zip(far)) {
+        for (spoke, (&first, &second)) in self.spokes.iter_mut().zip(near.iter().zip(far)) {
             let end = Vector::gather(|lane| positions[if lane == 0 { first } else { second } as usize]);
-            *chord = end - centre;
+            spoke.chord = end - centre;
         }
     }
 
@@ -107,50 +114,64 @@ impl<T: Real> Ring<T> {
     #[inline(always)]
     pub(crate) fn unroll(&mut self) -> bool {
         let (degree, gaps) = (self.degree, self.gaps());
-        let zero = T::splat(0.0);
-        let mut sum_r = zero;
-        for j in 0..degree {
-            self.r[j] = self.chords[j].length();
-            sum_r += self.r[j];
+        let mut sum_r = T::splat(0.0);
+        for spoke in &mut self.spokes[..degree] {
+            spoke.r = spoke.chord.length();
+            sum_r += spoke.r;
         }
+        self.h = sum_r / T::splat(degree as f64);
+        self.spokes[degree] = self.spokes[0];
+        let is_plane = self.measure_angles();
+        let inverse_h = T::splat(1.0) / self.h;
+        let mut cumulative = T::splat(0.0);
+        for (spoke, even) in self.spokes.iter_mut().zip(even_ring::spokes(degree, gaps)) {
+            (spoke.sin, spoke.cos) = angle::direction_near(self.scale * cumulative, even);
+            let radius = spoke.r * inverse_h;
+            (spoke.u, spoke.v) = (radius * spoke.cos, radius * spoke.sin);
+            cumulative += spoke.angle;
+        }
+        self.spokes[degree] = self.spokes[0];
+        is_plane && self.is_total_true
+    }
+
+    /// The angles between neighbouring chords and their sum. True where all of them span a plane.
+    #[inline(always)]
+    fn measure_angles(&mut self) -> bool {
+        let (degree, gaps) = (self.degree, self.gaps());
+        let zero = T::splat(0.0);
         let mut total = zero;
-        let mut is_ordinary = true;
+        let mut is_plane_everywhere = true;
         for j in 0..gaps {
-            let next = self.next(j);
-            let length = self.chords[j].cross(self.chords[next]).length();
-            let dot = self.chords[j].dot(self.chords[next]);
-            let product = self.r[j] * self.r[next];
+            let [spoke, next] = &mut self.spokes[j..j + 2] else { break };
+            let length = spoke.chord.cross(next.chord).length();
+            let product = spoke.r * next.r;
             let is_plane = (product * T::splat(COLLINEAR)).less(length);
-            let found = angle::angle_between(length, dot, product, is_plane);
+            spoke.dot = spoke.chord.dot(next.chord);
+            spoke.cross_length = length;
+            let between = angle::angle_between(length, spoke.dot, product, is_plane);
             // Two chords without length have no angle: the quotient is NaN there.
-            let found = T::choose(found.less(T::splat(4.0)), found, zero);
-            is_ordinary &= T::all(is_plane);
-            self.dot[j] = dot;
-            self.cross_length[j] = length;
-            self.angle[j] = found;
-            total += found;
+            spoke.angle = if T::all(is_plane) {
+                between
+            } else {
+                is_plane_everywhere = false;
+                T::choose(between.less(T::splat(4.0)), between, zero)
+            };
+            total += spoke.angle;
         }
         if self.is_boundary && degree > 0 {
-            self.angle[degree - 1] = zero;
+            self.spokes[degree - 1].angle = zero;
         }
         let is_true = T::splat(MIN_TOTAL).less(total);
         self.is_total_true = T::all(is_true);
         self.total = T::choose(is_true, total, T::splat(MIN_TOTAL));
         self.scale = T::splat(if self.is_boundary { PI } else { TAU }) / self.total;
-        self.h = sum_r / T::splat(degree as f64);
-        let mut cumulative = zero;
-        for j in 0..degree {
-            (self.sin[j], self.cos[j]) = angle::direction(self.scale * cumulative);
-            cumulative += self.angle[j];
-        }
-        is_ordinary && self.is_total_true
+        is_plane_everywhere
     }
 
-    /// Coordinates of a neighbour, divided by `h`; `inverse_h` is `1 / h`.
+    /// Coordinates of a neighbour, divided by `h`.
     #[inline(always)]
-    pub(crate) fn uv(&self, j: usize, inverse_h: T) -> (T, T) {
-        let radius = self.r[j] * inverse_h;
-        (radius * self.cos[j], radius * self.sin[j])
+    pub(crate) fn uv(&self, j: usize) -> (T, T) {
+        (self.spokes[j].u, self.spokes[j].v)
     }
 
     /// The row of the quadratic's basis at normalised coordinates; on the boundary it has three entries.

@@ -32,6 +32,8 @@ pub struct Predicted {
 pub(crate) struct Predictor {
     /// Unit field of the last translated handle, per unknown.
     guess: Vec<f64>,
+    /// What its residual is relative to.
+    reference: f64,
     moved: Vec<u32>,
     rhs: Vec<f64>,
     known: Vec<f64>,
@@ -90,14 +92,18 @@ impl Predictor {
                 self.guess.clear();
             }
             self.guess.resize(unknowns.len(), 0.0);
-            let solved = cg::solve(
+            let reference = (is_guess_good && self.reference > 0.0).then_some(self.reference);
+            let solved = cg::solve_again(
                 |x, y| assembly.matrix().multiply(x, y),
                 |r, z| preconditioner.apply(r, z),
                 &self.rhs,
                 &mut self.guess,
                 limit,
+                reference,
                 &mut self.workspace,
             );
+            // Measured anew once the field has changed enough to be solved for.
+            self.reference = if solved.iterations == 0 { solved.reference } else { f64::NAN };
             outcome.iterations += solved.iterations;
             outcome.residual = outcome.residual.max(solved.residual);
             for (node, field) in self.field.iter_mut().enumerate() {
@@ -126,13 +132,13 @@ impl Predictor {
 /// ring, so that one short edge cannot hold up a handle for ever.
 pub(crate) fn strain(rings: &Rings, fits: &Fits, unknowns: &Unknowns, field: &[DVec3]) -> f64 {
     let mut worst = 0.0_f64;
-    for (slot, from, to) in rings.edges() {
+    rings.edges().for_each(|(slot, from, to)| {
         if unknowns.index[from] == FIXED && unknowns.index[to] == FIXED {
-            continue;
+            return;
         }
         let length = fits.lengths[slot].max(0.1 * fits.nodes[from].h).max(f64::MIN_POSITIVE);
         worst = worst.max((field[from] - field[to]).length() / length);
-    }
+    });
     worst
 }
 

@@ -96,7 +96,7 @@ impl Sweep<'_> {
     fn move_node<T: Real>(&mut self, node: u32, ring: &Ring<T>, fit: &Fit<T>, lane: usize) {
         let (u, v) = if ring.is_boundary {
             // Along the boundary only: its two neighbours lie on the u axis.
-            let ends = ring.r[0].lane(lane) - ring.r[ring.degree - 1].lane(lane);
+            let ends = ring.spokes[0].r.lane(lane) - ring.spokes[ring.degree - 1].r.lane(lane);
             (0.5 * ends / ring.h.lane(lane), 0.0)
         } else {
             // A folded ring has no best place; the centroid leads it out of the fold.
@@ -124,8 +124,8 @@ impl Sweep<'_> {
         let ring = self.rings.ring(node as usize);
         let h = unrolled.h.lane(lane);
         let spoke = |j: usize| {
-            let r = unrolled.r[j].lane(lane);
-            (r * unrolled.cos[j].lane(lane), r * unrolled.sin[j].lane(lane))
+            let r = unrolled.spokes[j].r.lane(lane);
+            (r * unrolled.spokes[j].cos.lane(lane), r * unrolled.spokes[j].sin.lane(lane))
         };
         let (mut sum_u, mut sum_v, mut sum) = (0.0, 0.0, 0.0);
         for j in 0..unrolled.gaps() {
@@ -154,8 +154,8 @@ impl Sweep<'_> {
 fn shapeliest<T: Real>(ring: &Ring<T>, lane: usize) -> Option<(f64, f64)> {
     let h = ring.h.lane(lane);
     let spoke = |j: usize| {
-        let r = ring.r[j].lane(lane) / h;
-        DVec2::new(r * ring.cos[j].lane(lane), r * ring.sin[j].lane(lane))
+        let r = ring.spokes[j].r.lane(lane) / h;
+        DVec2::new(r * ring.spokes[j].cos.lane(lane), r * ring.spokes[j].sin.lane(lane))
     };
     let mut slope = DVec2::ZERO;
     // Second derivatives by uu, uv, vv.
@@ -196,7 +196,7 @@ pub fn place_on_edge(rings: &Rings, positions: &[DVec3], a: u32, b: u32) -> DVec
     let mut rise = |node: u32, far: u32| {
         let place = rings.ring(node as usize).iter().position(|&other| other == far)?;
         let careful = fit_at(rings, positions, node, &mut ring);
-        let (u, v) = ring.uv(place, 1.0 / ring.h);
+        let (u, v) = ring.uv(place);
         // q(t) = second(t): q(1/2) - q(1)/2 = -second/4, whatever the linear part.
         let rise = careful.fit.quadratic(0).evaluate(u, v, 0.0) * -0.25;
         (careful.is_fitted() && rise.is_finite()).then_some(rise)

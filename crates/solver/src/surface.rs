@@ -74,6 +74,8 @@ pub struct SurfaceSolver {
     /// Factor on the mass damping, above 1 after failed searches.
     damping: f64,
     quiet_steps: u32,
+    /// What the fits at the end of a step should hold.
+    next_wanted: Wanted,
 }
 
 impl SurfaceSolver {
@@ -102,6 +104,7 @@ impl SurfaceSolver {
             goals,
             damping: 1.0,
             quiet_steps: 0,
+            next_wanted: Wanted::Gradient,
             unknowns,
             settings,
             fixed,
@@ -180,7 +183,7 @@ impl SurfaceSolver {
             return Ok(Predicted { fraction: 1.0, ..Predicted::default() });
         }
         self.heed_moves(&moves);
-        self.refit(positions, Wanted::Gradient);
+        self.refit(positions, Wanted::Rows);
         self.prepare()?;
         self.assembly.assemble(&self.rings, &self.goals, &self.fits, Rows::Field, |_| 0.0);
         let limit = Limit {
@@ -211,6 +214,10 @@ impl SurfaceSolver {
     /// nodes have none.
     pub fn step(&mut self, positions: &mut [DVec3], budget: Budget) -> Result<StepReport, SolverError> {
         check_positions(self.rings.len(), positions)?;
+        // Positions that somebody moved will most likely be moved again before the next step, as in a drag: then nobody
+        // asks for the gradient at its end. The predictor asks for the rows.
+        let is_led = !self.fits.are_at(positions) && !self.goals.has_neutral;
+        self.next_wanted = if is_led { Wanted::Rows } else { Wanted::Gradient };
         self.refit(positions, Wanted::Gradient);
         self.slopes();
         let looseness = self.components.looseness(positions, &self.fixed);

@@ -55,3 +55,43 @@ pub(crate) fn adjoint<T: Real>(fit: &Fit<T>, h: T, demand: &Demand<T>) -> Adjoin
     let along = two * fit.area * density * weight + other + slope * fit.jacobian;
     Adjoint { d, area: density * weight, h: -(two / h) * along }
 }
+
+/// The derivative of weighted plate and bending with respect to the fit of an ordinary node, which has no barrier.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct NormalAdjoint<T> {
+    /// With respect to D1 to D5: all of it lies along the normal.
+    pub(crate) d: [T; 5],
+    /// With respect to the area.
+    pub(crate) area: T,
+}
+
+/// As [`adjoint`], for ordinary nodes.
+#[inline(always)]
+pub(crate) fn normal_adjoint<T: Real>(
+    fit: &Fit<T>,
+    h: T,
+    weight: T,
+    bending: Option<[T; 3]>,
+) -> NormalAdjoint<T> {
+    let squared = h * h;
+    let inverse_square = T::splat(1.0) / squared;
+    let scale = T::splat(2.0) * fit.area * weight;
+    let mut asked = fit.l.map(|l| scale * l);
+    if let Some(bending) = bending {
+        for c in 0..3 {
+            asked[c] += bending[c];
+        }
+    }
+    let asked = asked.map(|asked| asked * inverse_square);
+    // m = D1 × D2 = |m| n: an upright m̄ would be the barrier's.
+    let normal_bar = fit.d[2] * asked[0] + fit.d[3] * asked[1] + fit.d[4] * asked[2];
+    let price = normal_bar * (T::splat(1.0) / (fit.jacobian * squared));
+    let d = [
+        price.dot(fit.normal.cross(fit.d[1])),
+        price.dot(fit.d[0].cross(fit.normal)),
+        asked[0],
+        asked[1],
+        asked[2],
+    ];
+    NormalAdjoint { d, area: density(fit) * weight }
+}

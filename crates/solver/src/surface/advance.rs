@@ -92,6 +92,7 @@ impl SurfaceSolver {
             fits: &self.fits,
             alpha: &self.alpha,
             slope,
+            wanted: self.next_wanted,
         };
         let (positions, trial) = (&mut self.trial_positions, &mut self.trial);
         if !self.goals.has_neutral {

@@ -73,12 +73,12 @@ fn condition(ring: &Ring<f64>, neighbours: &[u32]) -> f64 {
     let least = (0..ring.degree).min_by_key(|&j| neighbours[j]);
     // A boundary ring lies on the u axis already.
     let (cos, sin) = match least {
-        Some(j) if !ring.is_boundary => (ring.cos[j], ring.sin[j]),
+        Some(j) if !ring.is_boundary => (ring.spokes[j].cos, ring.spokes[j].sin),
         _ => (1.0, 0.0),
     };
     let mut m = Matrix5::<f64>::default();
     for j in 0..ring.degree {
-        let (x, y) = ring.uv(j, 1.0 / ring.h);
+        let (x, y) = ring.uv(j);
         let (u, v) = (x * cos + y * sin, y * cos - x * sin);
         let row = [u, v, 0.5 * u * u, u * v, 0.5 * v * v];
         for i in 0..size(ring) {

@@ -59,7 +59,7 @@ impl<'a> Bending<'a> {
             let (fit, root) = (&careful.fit, careful.fit.area.sqrt());
             bending.now[node] = fit.l.map(|l| root * l);
             for (j, slot) in rings.slots(node).enumerate() {
-                let basis = ring.basis(ring.uv(j, 1.0 / ring.h));
+                let basis = ring.basis(ring.uv(j));
                 let factor = match kind {
                     Frozen::Literal => normals[rings.ring(node)[j] as usize].dot(normals[node]),
                     Frozen::Neutral => rings.sense(slot),
