@@ -235,7 +235,7 @@ pub(crate) struct BoundCurve {
     /// Its prescribed directions, by sample.
     tangents: Vec<(u32, DVec3)>,
     /// The solver.
-    solver: CurveSolver,
+    pub(crate) solver: CurveSolver,
 }
 
 /// The prescribed directions of a curve, by sample.
@@ -275,9 +275,14 @@ impl BoundCurve {
         nodes: &mut [DVec3],
         motion: &Motion,
     ) -> Result<(bool, bool), SolverError> {
-        let is_met = motion.carry(nodes, |nodes, by| self.solver.predict(nodes, by))?;
+        let is_met = self.carry(nodes, motion)?;
         let report = self.solver.step(nodes)?;
         Ok((is_met, report.at_rest))
+    }
+
+    /// Carries the controls as far as the strain limit allows. Returns whether all the way.
+    pub(crate) fn carry(&mut self, nodes: &mut [DVec3], motion: &Motion) -> Result<bool, SolverError> {
+        motion.carry(nodes, |nodes, by| self.solver.predict(nodes, by))
     }
 
     /// What the control points ask for that are not yet where the document has them.

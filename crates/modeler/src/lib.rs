@@ -14,6 +14,7 @@ mod history;
 mod maintain;
 mod model;
 mod modeler;
+mod network;
 mod operation;
 mod region;
 mod rehydrate;

@@ -4,10 +4,11 @@
 use crate::bound::{BoundCurve, BoundSurface, Motion};
 use crate::maintain::{self, Upkeep};
 use crate::model::Model;
+use crate::network::Networks;
 use crate::shape::{CurveShape, SurfaceShape, edit};
 use ductile_solver::Budget;
 use ductile_spec::{CurveId, Figures, SurfaceId};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The mesh is improved at most every so many steps (recipe, section 6).
 const MAINTENANCE_PERIOD: u32 = 3;
@@ -44,7 +45,8 @@ pub struct Relaxation {
 #[derive(Clone, Debug, Default)]
 pub struct Relaxer {
     surfaces: BTreeMap<SurfaceId, BoundSurface>,
-    curves: BTreeMap<CurveId, BoundCurve>,
+    pub(crate) curves: BTreeMap<CurveId, BoundCurve>,
+    pub(crate) networks: Networks,
     upkeep: BTreeMap<SurfaceId, Upkeep>,
     states: BTreeMap<SurfaceId, Relaxation>,
     curves_at_rest: BTreeMap<CurveId, bool>,
@@ -165,7 +167,8 @@ impl Relaxer {
         self.hand = 0.0;
         self.steps = self.steps.saturating_add(1);
         self.steps_since_act = self.steps_since_act.saturating_add(1);
-        for id in model.curves.keys().copied().collect::<Vec<_>>() {
+        let together = self.step_networks(model);
+        for id in model.curves.keys().copied().filter(|id| !together.contains(id)).collect::<Vec<_>>() {
             self.step_curve(model, id);
         }
         for id in model.surfaces.keys().copied().collect::<Vec<_>>() {
@@ -184,6 +187,20 @@ impl Relaxer {
         self.surfaces
             .iter()
             .any(|(id, bound)| model.surfaces.get(id).is_some_and(|shape| bound.is_worn(shape.spacing)))
+    }
+
+    /// Steps the curves that have to agree where they meet; returns which those are.
+    fn step_networks(&mut self, model: &mut Model) -> BTreeSet<CurveId> {
+        let refused = self.networks.bind(model);
+        self.rescues = self.rescues.saturating_add(refused);
+        let rests = |id: CurveId| self.curves_at_rest.get(&id) == Some(&true);
+        let mut together = BTreeSet::new();
+        for outcome in self.networks.step(model, &mut self.curves, rests) {
+            self.rescues = self.rescues.saturating_add(u32::from(outcome.is_rescued));
+            self.curves_at_rest.extend(outcome.curves.iter().map(|id| (*id, outcome.at_rest)));
+            together.extend(outcome.curves);
+        }
+        together
     }
 
     fn step_curve(&mut self, model: &mut Model, id: CurveId) {
