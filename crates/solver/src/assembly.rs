@@ -96,37 +96,35 @@ impl Assembly {
         }
         let pairs = rings.batches().last().map_or(0, |batch| batch.pairs().end);
         let mut places = vec![[FIXED; 2]; pairs];
-        let (mut row_starts, mut columns) = (vec![0_u32], Vec::new());
-        // Where column `j` sits in the row being built; valid while `owner[j]` is that row.
-        let mut owner = vec![FIXED; unknowns.len()];
-        let mut place_of = vec![0_u32; unknowns.len()];
+        // About nine columns a row lie below the diagonal of a plate.
+        let mut row_starts = Vec::with_capacity(unknowns.len() + 1);
+        let mut columns = Vec::with_capacity(10 * unknowns.len());
+        row_starts.push(0_u32);
+        // The row in which column `j` was met last, and its place there.
+        let mut met = vec![(FIXED, 0_u32); unknowns.len()];
         for (row, &node) in (0_u32..).zip(&unknowns.nodes) {
-            let first = columns.len();
-            for_star(rings, node, |_, list| {
-                for column in list.map(|node| unknowns.index[node as usize]).filter(|&c| c < row) {
-                    if owner[column as usize] != row {
-                        owner[column as usize] = row;
-                        columns.push(column);
-                    }
-                }
-            });
-            columns[first..].sort_unstable();
-            for (place, &column) in (first as u32..).zip(&columns[first..]) {
-                place_of[column as usize] = place;
-            }
-            row_starts.push(columns.len() as u32);
-            // Tell every neighbourhood that contains this row where its pairs with smaller columns go.
-            for_star(rings, node, |centre, list| {
-                let Some(mine) = list.clone().position(|other| other == node) else { return };
-                for (other, far) in list.enumerate() {
+            // Every neighbourhood that contains this row is told where its pairs with smaller columns go. Columns stand
+            // in the order in which they are met.
+            for centre in neighbourhood_of(rings, node as usize) {
+                let ring = rings.ring(centre as usize);
+                let mine = if centre == node { 0 } else { 1 + place_in(ring, node) };
+                let (start, lane) = homes[centre as usize];
+                let mut tell = |other: usize, far: u32| {
                     let column = unknowns.index[far as usize];
                     if column < row {
+                        let met = &mut met[column as usize];
+                        if met.0 != row {
+                            *met = (row, columns.len() as u32);
+                            columns.push(column);
+                        }
                         let (high, low) = (mine.max(other), mine.min(other));
-                        let (start, lane) = homes[centre];
-                        places[start + high * (high + 1) / 2 + low][lane] = place_of[column as usize];
+                        places[start + high * (high + 1) / 2 + low][lane] = met.1;
                     }
-                }
-            });
+                };
+                tell(0, centre);
+                ring.iter().enumerate().for_each(|(place, &far)| tell(place + 1, far));
+            }
+            row_starts.push(columns.len() as u32);
         }
         let matrix = SymmetricMatrix::new(row_starts, columns);
         let mut assembly = Self { matrix, places };
@@ -236,19 +234,9 @@ fn neighbourhood_of(rings: &Rings, node: usize) -> impl Iterator<Item = u32> + C
     std::iter::once(centre).chain(rings.ring(node).iter().copied())
 }
 
-/// Visits every neighbourhood that contains `node`.
-fn for_star<'a>(
-    rings: &'a Rings,
-    node: u32,
-    mut visit: impl FnMut(
-        usize,
-        std::iter::Chain<std::iter::Once<u32>, std::iter::Copied<std::slice::Iter<'a, u32>>>,
-    ),
-) {
-    for centre in neighbourhood_of(rings, node as usize) {
-        let list = std::iter::once(centre).chain(rings.ring(centre as usize).iter().copied());
-        visit(centre as usize, list);
-    }
+/// The place of a neighbour in a ring. Rings know each other, so it is there.
+fn place_in(ring: &[u32], node: u32) -> usize {
+    ring.iter().position(|&far| far == node).unwrap_or(0)
 }
 
 #[cfg(test)]

@@ -56,27 +56,11 @@ impl Blocks {
                 row: layout.rows.len() as u32,
                 value: layout.sources.len() as u32,
             });
-            let mut cursors: Vec<usize> =
-                (first..first + width).map(|column| starts[column] as usize).collect();
-            let mut place = |column: usize, row: usize| {
-                let cursor = &mut cursors[column];
-                let end = starts[first + column + 1] as usize;
-                if *cursor < end && rows[*cursor] as usize == row {
-                    *cursor += 1;
-                    (*cursor - 1) as u32
-                } else {
-                    PADDING
-                }
-            };
-            for row in 0..width {
-                for column in 0..=row {
-                    layout.sources.push(place(column, first + row));
-                }
-            }
-            for &row in shared {
-                for column in 0..width {
-                    layout.sources.push(place(column, row as usize));
-                }
+            let values = layout.sources.len();
+            layout.sources.resize(values + width * (width + 1) / 2 + width * shared.len(), PADDING);
+            for column in 0..width {
+                let from = starts[first + column] as usize..starts[first + column + 1] as usize;
+                lay(&mut layout.sources[values..], from, rows, Shape { first, width, column, shared });
             }
             layout.rows.extend_from_slice(shared);
             first += width;
@@ -190,6 +174,36 @@ fn dot<const W: usize>(a: &[f64; W], b: &[f64; W]) -> f64 {
 fn subtract<const W: usize>(a: &mut [f64; W], b: &[f64; W], x: f64) {
     for k in 0..W {
         a[k] -= b[k] * x;
+    }
+}
+
+/// A column of a block.
+struct Shape<'a> {
+    first: usize,
+    width: usize,
+    column: usize,
+    /// The rows below the block's triangle.
+    shared: &'a [u32],
+}
+
+/// Enters where the values of a column come from; what it does not have stays padding.
+#[expect(clippy::cast_possible_truncation, reason = "the factor's entries are counted by u32")]
+fn lay(sources: &mut [u32], from: std::ops::Range<usize>, rows: &[u32], shape: Shape<'_>) {
+    let Shape { first, width, column, shared } = shape;
+    let below = width * (width + 1) / 2;
+    let inside = (column..width).map(|row| (first + row, row * (row + 1) / 2 + column));
+    let beneath =
+        shared.iter().enumerate().map(|(index, &row)| (row as usize, below + index * width + column));
+    // Without gaps the entries follow one another.
+    if from.len() == width - column + shared.len() {
+        from.zip(inside.chain(beneath)).for_each(|(source, (_, place))| sources[place] = source as u32);
+        return;
+    }
+    let mut own = from.clone().zip(&rows[from]).peekable();
+    for (row, place) in inside.chain(beneath) {
+        if let Some((source, _)) = own.next_if(|&(_, &own_row)| own_row as usize == row) {
+            sources[place] = source as u32;
+        }
     }
 }
 

@@ -82,8 +82,10 @@ impl Rings {
         let mut is_boundary = Vec::with_capacity(nodes);
         offsets.push(0);
         let mut ring = Vec::new();
+        let mut is_wound_alike = true;
         for node in 0..count {
-            let closed = chain(node, links.of(node), &mut ring)?;
+            let Chain { closed, is_forward } = chain(node, links.of(node), &mut ring)?;
+            is_wound_alike &= is_forward;
             if ring.len() > MAX_RING {
                 return Err(RingError::RingTooLarge(node));
             }
@@ -91,7 +93,12 @@ impl Rings {
             is_boundary.push(!closed);
             offsets.push(compact(neighbours.len())?);
         }
-        let senses = senses(&offsets, &neighbours, &is_boundary)?;
+        // Where each ring runs along all of its triangles, both rings of a spoke run along the same ones.
+        let senses = if is_wound_alike {
+            vec![1.0; neighbours.len()]
+        } else {
+            senses(&offsets, &neighbours, &is_boundary)?
+        };
         Ok(Self::assemble(offsets, neighbours, senses, is_boundary, triangles.to_vec()))
     }
 
@@ -260,12 +267,21 @@ impl Links {
     }
 }
 
-/// Chains the link edges of a node into `ring`; says whether the ring closes. The first edge sets the sense.
-fn chain(node: u32, link: &[[u32; 2]], ring: &mut Vec<u32>) -> Result<bool, RingError> {
+/// What was found on the way round a node.
+struct Chain {
+    /// Whether the ring closes.
+    closed: bool,
+    /// Whether it runs along every triangle in the sense in which that is wound.
+    is_forward: bool,
+}
+
+/// Chains the link edges of a node into `ring`. The first edge sets the sense.
+fn chain(node: u32, link: &[[u32; 2]], ring: &mut Vec<u32>) -> Result<Chain, RingError> {
     ring.clear();
     let Some(&[first, second]) = link.first() else {
-        return Ok(false);
+        return Ok(Chain { closed: false, is_forward: true });
     };
+    let mut is_forward = true;
     if link.len() > MAX_RING {
         return Err(RingError::RingTooLarge(node));
     }
@@ -273,7 +289,8 @@ fn chain(node: u32, link: &[[u32; 2]], ring: &mut Vec<u32>) -> Result<bool, Ring
     ring.extend([first, second]);
     let mut closed = false;
     // Forwards from the second node, then backwards from the first; a closed ring never needs the latter.
-    while let Some(far) = take_next(link, &mut used, ring[ring.len() - 1]) {
+    while let Some((far, side)) = take_next(link, &mut used, ring[ring.len() - 1]) {
+        is_forward &= side == 0;
         if far == first {
             closed = true;
             break;
@@ -282,7 +299,8 @@ fn chain(node: u32, link: &[[u32; 2]], ring: &mut Vec<u32>) -> Result<bool, Ring
     }
     if !closed {
         let mut before = Vec::new();
-        while let Some(far) = take_next(link, &mut used, before.last().copied().unwrap_or(first)) {
+        while let Some((far, side)) = take_next(link, &mut used, before.last().copied().unwrap_or(first)) {
+            is_forward &= side == 1;
             before.push(far);
         }
         before.reverse();
@@ -293,15 +311,15 @@ fn chain(node: u32, link: &[[u32; 2]], ring: &mut Vec<u32>) -> Result<bool, Ring
     if !is_whole || !is_simple || (closed && ring.len() < 3) {
         return Err(RingError::NotManifold(node));
     }
-    Ok(closed)
+    Ok(Chain { closed, is_forward })
 }
 
-/// The far end of an unused link edge at `from`, which it marks as used.
-fn take_next(link: &[[u32; 2]], used: &mut u32, from: u32) -> Option<u32> {
+/// The far end of an unused link edge at `from`, which it marks as used, and whether `from` is its first or second end.
+fn take_next(link: &[[u32; 2]], used: &mut u32, from: u32) -> Option<(u32, u8)> {
     let index = (0..link.len()).find(|&i| *used & (1 << i) == 0 && link[i].contains(&from))?;
     *used |= 1 << index;
     let [a, b] = link[index];
-    Some(if a == from { b } else { a })
+    Some(if a == from { (b, 0) } else { (a, 1) })
 }
 
 /// Compares the rings at both ends of every spoke over a triangle they share.
@@ -376,6 +394,19 @@ mod tests {
             let ring = rings.ring(node);
             assert!(rings.is_boundary(ring[0] as usize) && rings.is_boundary(ring[ring.len() - 1] as usize));
         }
+    }
+
+    #[test]
+    fn triangles_wound_unlike_have_the_senses_that_a_second_look_finds() {
+        let disc = workload::disc(3);
+        let mut triangles = disc.triangles.clone();
+        let alike = Rings::from_triangles(disc.positions.len(), &triangles).unwrap();
+        let looked = senses(&alike.offsets, &alike.neighbours, &alike.is_boundary).unwrap();
+        assert_eq!(alike.senses, looked);
+        // A triangle turned round: some of its corners take their sense from it.
+        triangles[0].swap(1, 2);
+        let unlike = Rings::from_triangles(disc.positions.len(), &triangles).unwrap();
+        assert!(unlike.is_mixed() && !alike.is_mixed());
     }
 
     #[test]
