@@ -67,7 +67,7 @@ fn controls_are_met_exactly_at_rest() {
 fn a_shape_does_not_depend_on_its_spacing() {
     let energy_at = |spacing: f64| {
         let mut bench = Bench::with(Example::RaisedDisc);
-        bench.edit(Edit::Spacing { spacing: Some(spacing) });
+        bench.edit(Edit::Spacing { of: ductile_spec::SpacingOf::Document, spacing: Some(spacing) });
         bench.rest(600)
     };
     let (coarse, fine) = (energy_at(0.08), energy_at(0.04));

@@ -124,7 +124,7 @@ fn a_document_that_could_not_be_opened_again_is_never_committed() {
     bench.accept(Request::Describe);
     assert_eq!(bench.document(), document);
     // So far that the surface would need more nodes than there may be.
-    bench.edit(ductile_spec::Edit::Spacing { spacing: Some(0.015) });
+    bench.edit(ductile_spec::Edit::Spacing { of: ductile_spec::SpacingOf::Document, spacing: Some(0.015) });
     let document = bench.document();
     let reply = bench.send(Request::Edit(ductile_spec::Edit::Move { point: there, to: DVec3::splat(9.0) }));
     assert!(reply.refused.is_some_and(|refusal| refusal.reason.contains("nodes")));
@@ -157,8 +157,8 @@ fn requests_that_make_no_sense_are_refused_with_a_reason() {
         Request::Edit(Edit::Sheet { boundary: CurveId(1) }),
         Request::Edit(Edit::Sweep { from: CurveId(1), to: CurveId(1) }),
         Request::Edit(Edit::DeleteCurve { curve: CurveId(1) }),
-        Request::Edit(Edit::Spacing { spacing: Some(f64::NAN) }),
-        Request::Edit(Edit::Spacing { spacing: Some(1e-9) }),
+        Request::Edit(Edit::Spacing { of: ductile_spec::SpacingOf::Document, spacing: Some(f64::NAN) }),
+        Request::Edit(Edit::Spacing { of: ductile_spec::SpacingOf::Document, spacing: Some(1e-9) }),
         Request::Edit(Edit::Rename { name: "x".repeat(1000) }),
     ];
     for request in refused {
@@ -207,7 +207,7 @@ proptest! {
     #[test]
     fn no_sequence_of_requests_breaks_the_model(requests in prop::collection::vec(request(), 1..40)) {
         let mut bench = Bench::with(Example::Disc);
-        bench.edit(ductile_spec::Edit::Spacing { spacing: Some(0.2) });
+        bench.edit(ductile_spec::Edit::Spacing { of: ductile_spec::SpacingOf::Document, spacing: Some(0.2) });
         for request in requests {
             bench.send(request);
         }

@@ -76,7 +76,10 @@ impl Stream {
             10 => Edit::DeletePoint { point },
             11 => Edit::DeleteCurve { curve },
             12 => Edit::DeleteSurface { surface },
-            13 => Edit::Spacing { spacing: Some([0.0, f64::NAN, 1e-12, 1e9, 0.3][self.below(5)]) },
+            13 => Edit::Spacing {
+                of: ductile_spec::SpacingOf::Document,
+                spacing: Some([0.0, f64::NAN, 1e-12, 1e9, 0.3][self.below(5)]),
+            },
             14 => return Request::Export(ExportFormat::Obj),
             _ => return [Request::Undo, Request::Redo, Request::Describe][self.below(3)].clone(),
         })

@@ -1,6 +1,9 @@
 //! Support for the acceptance tests: a modeler driven through its one door, with every invariant checked
 //! after every request.
 
+pub mod shapes;
+pub mod solved;
+
 use ductile_mesh::validate;
 use ductile_modeler::Modeler;
 use ductile_spec::{Document, Edit, Example, Reply, Request, Step, from_text};

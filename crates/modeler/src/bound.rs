@@ -99,7 +99,8 @@ impl BoundSurface {
         let of_surface = model.document.objective_of_surface(id);
         // Only the membrane looks at the radius, which changes with every drag.
         let is_film = |objective| objective == Objective::Membrane;
-        let has_film = is_film(of_surface) || regions.iter().any(|region| is_film(region.objective));
+        let has_film =
+            is_film(of_surface) || regions.iter().any(|region| region.objective.is_some_and(is_film));
         let radius = if has_film { model.document.extent().1 } else { 0.0 };
         let choice = Choice { of_surface, regions: regions.to_vec(), radius };
         if choice == self.choice {
@@ -134,6 +135,13 @@ impl BoundSurface {
     #[must_use]
     pub fn energy(&self) -> f64 {
         self.solver.energy()
+    }
+
+    /// How well the mesh resolves the shape: by node the angle in radians by which it turns along a mean edge, and the
+    /// Jacobian of the fit. Up to 0.7 and from 0.7 on are good.
+    pub fn resolution(&self) -> impl Iterator<Item = (f64, f64)> {
+        let fits = self.solver.curvatures().zip(self.solver.mean_edges()).zip(self.solver.jacobians());
+        fits.map(|((curvature, h), jacobian)| (curvature.largest() * h, jacobian))
     }
 
     /// How many free nodes sleep through the present drag.

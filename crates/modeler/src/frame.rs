@@ -107,8 +107,10 @@ fn divide(structure: &mut Structure, id: SurfaceId, shape: &SurfaceShape, model:
         return;
     }
     let regions = model.document.surfaces.get(&id).map_or(&[][..], |surface| &surface.regions);
-    let own = region::own_objectives(shape, &labels, regions);
-    structure.regions.extend(own.into_iter().map(|objective| RegionEntry { surface: id, objective }));
+    let objectives = region::own(shape, &labels, regions, |region| region.objective);
+    let spacings = region::own(shape, &labels, regions, |region| region.spacing);
+    let own = objectives.into_iter().zip(spacings);
+    structure.regions.extend(own.map(|(objective, spacing)| RegionEntry { surface: id, objective, spacing }));
     let name = |f| u16::try_from(first + labels.of(f)).unwrap_or(NO_REGION);
     structure.region_of_triangle.extend(shape.mesh.faces().map(name));
 }
@@ -123,10 +125,10 @@ fn key(model: &Model) -> Vec<(u32, u64)> {
         .surfaces
         .iter()
         .flat_map(|(id, s)| s.skeleton.curves.iter().map(|e| (id.0, u64::from(e.curve.0))));
-    let chosen = model.document.surfaces.values().flat_map(|s| {
-        s.regions
-            .iter()
-            .map(|r| (r.from.0, (u64::from(r.curve.0) << 8) | r.side as u64 | ((r.objective as u64) << 1)))
+    let chosen = model.document.surfaces.values().flat_map(|s| &s.regions).flat_map(|r| {
+        let objective = r.objective.map_or(0, |objective| objective as u64 + 1);
+        let name = (r.from.0, (u64::from(r.curve.0) << 8) | r.side as u64 | (objective << 1));
+        [name, (0, r.spacing.map_or(0, f64::to_bits))]
     });
     let mark = [(u32::MAX, u64::MAX)];
     surfaces

@@ -6,6 +6,7 @@
 //! worker, in the command line and in the tests; it has no clock and no randomness.
 
 mod bound;
+mod density;
 mod error;
 mod example;
 mod frame;

@@ -2,13 +2,14 @@
 //! density, surfaces keep well-shaped triangles. Curve edges of a surface are left to their curve.
 
 use crate::bound::BoundSurface;
+use crate::density::{self, Along};
 use crate::model::{Model, NODE_BUDGET};
 use crate::shadow;
 use crate::shape::{CurveShape, SurfaceShape, edit};
 
 use ductile_mesh::remesh::{self, Ledger, Limits, Sizing};
 use ductile_mesh::{EdgeId, Mesh};
-use ductile_solver::respace;
+use ductile_solver::{respace, respace_graded};
 use ductile_spec::{CurveId, SurfaceId};
 use glam::DVec3;
 use std::sync::Arc;
@@ -25,40 +26,43 @@ const SMOOTHING: f64 = 0.6;
 const REFINEMENTS: usize = 40;
 /// Samples are spread again when their spacing differs by more than this part.
 const UNEVEN: f64 = 0.05;
+const UNEVEN_GRADED: f64 = 0.2;
 
 /// Improves the sampling of a curve and of all surfaces that follow it. Returns whether anything changed.
 pub(crate) fn curve(model: &mut Model, id: CurveId) -> bool {
-    let spacing = model.spacing();
     let mut changed = false;
     // From the last stretch to the first, so that indices of those still to come stay right.
     let stretches = model.curves.get(&id).map(|shape| shape.stretches()).unwrap_or_default();
-    for rank in (0..stretches.len()).rev() {
-        changed |= resample_stretch(model, id, rank, spacing);
+    for (rank, (_, count)) in stretches.iter().enumerate().rev() {
+        // Where lengths differ, a new shape may want several times as many samples.
+        let most = if matches!(density::along(model, id), Along::Graded(_)) { 1 + count / 8 } else { 1 };
+        changed |= (0..most).take_while(|_| resample_stretch(model, id, rank)).count() > 0;
     }
+    let along = density::along(model, id);
     if let Some(shape) = model.curves.get_mut(&id)
-        && is_uneven(shape)
+        && is_uneven(shape, &along)
     {
-        spread(edit(shape));
+        spread(edit(shape), &along);
         changed = true;
     }
     changed
 }
 
 /// Adds or takes at most one sample in a stretch.
-fn resample_stretch(model: &mut Model, id: CurveId, rank: usize, spacing: f64) -> bool {
+fn resample_stretch(model: &mut Model, id: CurveId, rank: usize) -> bool {
+    let along = density::along(model, id);
     let Some(shape) = model.curves.get(&id) else { return false };
     let Some((first, count)) = shape.stretches().get(rank).copied() else { return false };
     let nodes = shape.nodes.len();
     let at = |k: usize| shape.nodes[(first + k) % nodes];
-    let lengths: Vec<f64> = (0..count).map(|k| (at(k + 1) - at(k)).length()).collect();
-    let total: f64 = lengths.iter().sum();
-    let mean = total / count.max(1) as f64;
-    if mean > LONG * spacing && nodes < NODE_BUDGET / 4 {
+    let lengths = relative_lengths(shape, &along, (first, count));
+    let mean = lengths.iter().sum::<f64>() / count.max(1) as f64;
+    if mean > LONG && nodes < NODE_BUDGET / 4 {
         let longest = (0..count).fold(0, |best, k| if lengths[k] > lengths[best] { k } else { best });
         let place = at(longest).midpoint(at(longest + 1));
         return shadow::insert_sample(model, id, (first + longest) % nodes, place).is_ok();
     }
-    if mean < SHORT * spacing && count > FEWEST_EDGES {
+    if mean < SHORT && count > FEWEST_EDGES {
         let shortest = (1..count).fold(1, |best, k| {
             let around = |k: usize| lengths[k - 1] + lengths[k];
             if around(k) < around(best) { k } else { best }
@@ -68,24 +72,36 @@ fn resample_stretch(model: &mut Model, id: CurveId, rank: usize, spacing: f64) -
     false
 }
 
-fn is_uneven(shape: &CurveShape) -> bool {
-    let nodes = shape.nodes.len();
-    shape.stretches().iter().any(|(first, count)| {
-        let lengths = (0..*count)
-            .map(|k| (shape.nodes[(first + k + 1) % nodes] - shape.nodes[(first + k) % nodes]).length());
+/// The edges of a stretch in units of what is wanted of them.
+fn relative_lengths(shape: &CurveShape, along: &Along, (first, count): (usize, usize)) -> Vec<f64> {
+    let of_edge = |k: usize| {
+        let (a, b) = shape.edge((first + k) % shape.nodes.len());
+        (shape.nodes[b] - shape.nodes[a]).length() / along.edge(shape, a)
+    };
+    (0..count).map(of_edge).collect()
+}
+
+fn is_uneven(shape: &CurveShape, along: &Along) -> bool {
+    // Wanted lengths that change along a curve are met less exactly.
+    let tolerance = if matches!(along, Along::Even(_)) { UNEVEN } else { UNEVEN_GRADED };
+    shape.stretches().into_iter().any(|stretch| {
+        let lengths = relative_lengths(shape, along, stretch).into_iter();
         let (low, high) = lengths.fold((f64::INFINITY, 0.0_f64), |(low, high), l| (low.min(l), high.max(l)));
-        high > low * (1.0 + UNEVEN)
+        high > low * (1.0 + tolerance)
     })
 }
 
-/// Spreads the samples of each stretch evenly.
-pub(crate) fn spread(shape: &mut CurveShape) {
+/// Spreads the samples of each stretch as they are wanted.
+pub(crate) fn spread(shape: &mut CurveShape, along: &Along) {
     let mut is_control = vec![false; shape.nodes.len()];
     for (sample, _) in &shape.controls {
         is_control[*sample as usize] = true;
     }
     // Refused only for positions that are no numbers; then the samples stay where they are.
-    let _ = respace(&mut shape.nodes, shape.closed, &is_control);
+    let _ = match along {
+        Along::Even(_) => respace(&mut shape.nodes, shape.closed, &is_control),
+        Along::Graded(wanted) => respace_graded(&mut shape.nodes, shape.closed, &is_control, wanted),
+    };
 }
 
 /// What the maintenance of one surface remembers from batch to batch: where it has nothing to do.
@@ -115,11 +131,14 @@ pub(crate) fn surface(
         let [a, b] = mesh.edge_vertices(e);
         bound.between(a, b).unwrap_or_else(|| remesh::midpoint(mesh, positions, e))
     };
-    let mut sizing = Sizing::Uniform(shape.spacing);
+    let mut sizing = take_sizing(shape, 1);
     let limits = Limits { most_vertices: NODE_BUDGET, may_collapse, ..Limits::default() };
     let (mesh, positions) = (&mut shape.mesh, &mut shape.positions);
     let ledger = (&mut upkeep.ledger, slack);
     let edits = remesh::improve_changed(mesh, positions, &mut sizing, ledger, &limits, &mut place);
+    if let Sizing::PerVertex(wanted) = sizing {
+        shape.wanted = wanted;
+    }
     if edits.count() == 0 {
         return false;
     }
@@ -139,9 +158,18 @@ pub(crate) fn smooth(shape: &mut Arc<SurfaceShape>, bound: &mut BoundSurface) ->
     moved
 }
 
+/// The lengths that a shape wants; those of a graded one (of which the coarseness is a part) must be given back.
+fn take_sizing(shape: &mut SurfaceShape, coarseness: usize) -> Sizing {
+    if shape.wanted.is_empty() {
+        Sizing::Uniform(shape.spacing * coarseness as f64)
+    } else {
+        Sizing::PerVertex(core::mem::take(&mut shape.wanted))
+    }
+}
+
 /// Refines a skeleton to a multiple of the spacing.
 pub(crate) fn refine(shape: &mut SurfaceShape, coarseness: usize) {
-    let mut sizing = Sizing::Uniform(shape.spacing * coarseness as f64);
+    let mut sizing = take_sizing(shape, coarseness);
     let limits = Limits { most_vertices: NODE_BUDGET, growth: 1.0, ..Limits::default() };
     for _ in 0..REFINEMENTS {
         let edits = remesh::improve(
@@ -154,5 +182,8 @@ pub(crate) fn refine(shape: &mut SurfaceShape, coarseness: usize) {
         if edits.count() == 0 {
             break;
         }
+    }
+    if let Sizing::PerVertex(wanted) = sizing {
+        shape.wanted = wanted;
     }
 }

@@ -1,5 +1,6 @@
 //! The model: the document and the shapes that approximate it. Cloning shares what is unchanged.
 
+use crate::density;
 use crate::error::ModelError;
 use crate::rehydrate::{build_curve, build_surface, check_extents};
 use crate::shape::{CurveShape, SurfaceShape, edit};
@@ -44,7 +45,7 @@ impl Model {
 
     /// Whether the document, whose controls were moved, could be opened again.
     pub(crate) fn check_extents(&self) -> Result<(), ModelError> {
-        check_extents(&self.document, self.spacing())
+        check_extents(self)
     }
 
     /// Makes the document different; the shapes follow by their own calls.
@@ -77,19 +78,21 @@ impl Model {
 
     /// Builds the shape of a curve of the document.
     pub(crate) fn build_curve(&mut self, id: CurveId) -> Result<(), ModelError> {
-        let spacing = self.spacing();
         let revision = self.next_revision();
-        let shape = build_curve(&self.document, id, spacing, revision)?;
+        let shape = build_curve(&self.document, id, &density::of_stretches(self, id)?, revision)?;
         self.curves.insert(id, Arc::new(shape));
         Ok(())
     }
 
     /// Builds the shape of a surface of the document, from its curves as they are now.
     pub(crate) fn build_surface(&mut self, id: SurfaceId) -> Result<(), ModelError> {
-        let surface = self.document.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?;
-        let spacing = surface.spacing.unwrap_or_else(|| self.spacing());
+        if !self.document.surfaces.contains_key(&id) {
+            return Err(ModelError::NoSurface(id));
+        }
+        let spacing = self.spacing_of(id);
+        let is_graded = density::graded(self).contains(&id);
         let revision = self.next_revision();
-        let shape = build_surface(&self.document, &self.curves, id, spacing, revision)?;
+        let shape = build_surface(&self.document, &self.curves, id, (spacing, is_graded), revision)?;
         self.surfaces.insert(id, Arc::new(shape));
         Ok(())
     }
@@ -98,6 +101,13 @@ impl Model {
     #[must_use]
     pub fn spacing(&self) -> f64 {
         self.document.spacing.unwrap_or_else(|| default_spacing(&self.document))
+    }
+
+    /// Target edge length of a surface where nothing else is said: its own, or the document's.
+    #[must_use]
+    pub fn spacing_of(&self, surface: SurfaceId) -> f64 {
+        let own = self.document.surfaces.get(&surface).and_then(|surface| surface.spacing);
+        own.unwrap_or_else(|| self.spacing())
     }
 
     /// Where a control point is specified to be.

@@ -34,21 +34,24 @@ pub(crate) fn objectives(shape: &SurfaceShape, choice: &Choice) -> Objectives {
         return Objectives::uniform(solver_objective(choice.of_surface), choice.radius);
     }
     let labels = regions(&shape.mesh);
-    let own = own_objectives(shape, &labels, &choice.regions);
+    let own = own(shape, &labels, &choice.regions, |region| region.objective);
     let of = |f: FaceId| solver_objective(own[labels.of(f)].unwrap_or(choice.of_surface));
     Objectives::by_triangle(shape.mesh.faces().map(of).collect(), choice.radius)
 }
 
-/// The objective of each piece that has one of its own; the first name of a piece counts.
-pub(crate) fn own_objectives(
+/// What each piece has of its own; the first name of a piece that says something counts.
+pub(crate) fn own<T: Clone>(
     shape: &SurfaceShape,
     labels: &Labels,
     regions: &[Region],
-) -> Vec<Option<Objective>> {
+    said: impl Fn(&Region) -> Option<T>,
+) -> Vec<Option<T>> {
     let mut own = vec![None; labels.count()];
     for region in regions {
-        if let Some(face) = face_beside(shape, region.curve, region.from, region.side) {
-            own[labels.of(face)].get_or_insert(region.objective);
+        if let Some(said) = said(region)
+            && let Some(face) = face_beside(shape, region.curve, region.from, region.side)
+        {
+            own[labels.of(face)].get_or_insert(said);
         }
     }
     own
@@ -94,7 +97,7 @@ fn starts(mesh: &Mesh, embedded: &EmbeddedCurve) -> Vec<PointId> {
 }
 
 /// The face beside the first edge of a stretch.
-fn face_beside(shape: &SurfaceShape, curve: CurveId, from: PointId, side: Side) -> Option<FaceId> {
+pub(crate) fn face_beside(shape: &SurfaceShape, curve: CurveId, from: PointId, side: Side) -> Option<FaceId> {
     let mesh = &shape.mesh;
     let embedded = shape.embeddings.iter().find(|e| e.curve == curve)?;
     let is_start = |v: &&VertexId| mesh.vertex_source(**v).is_some_and(|tag| tag.0 == from.0);

@@ -3,12 +3,13 @@
 //! a good start; the relaxer does the rest.
 
 use crate::bound::{BoundCurve, BoundSurface, Motion};
+use crate::density::{self, Along};
 use crate::error::ModelError;
 use crate::maintain::{self, FEWEST_EDGES};
-use crate::model::NODE_BUDGET;
+use crate::model::{Model, NODE_BUDGET};
 use crate::shape::{CurveShape, EmbeddedCurve, Pin, SurfaceShape};
 use ductile_mesh::{Mesh, SourceTag, VertexId, measure, propagate_orientation};
-use ductile_spec::{CurveId, Document, Embedding, PointId, Skeleton, SkeletonVertex, SurfaceId};
+use ductile_spec::{CurveId, Document, Embedding, PointId, Skeleton, SkeletonVertex, Surface, SurfaceId};
 use glam::DVec3;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -25,16 +26,16 @@ const LEAST_EXTENT: f64 = 1e-9;
 pub(crate) fn build_curve(
     document: &Document,
     id: CurveId,
-    spacing: f64,
+    spacings: &[f64],
     revision: u64,
 ) -> Result<CurveShape, ModelError> {
-    let (corners, stretches) = curve_corners(document, id, spacing)?;
+    let (corners, stretches) = curve_corners(document, id, spacings)?;
     let curve = document.curves.get(&id).ok_or(ModelError::NoCurve(id))?;
     let count = corners.len();
     let mut shape = CurveShape { nodes: Vec::new(), closed: curve.closed, controls: Vec::new(), revision };
     for k in 0..stretches {
         let (from, to) = (corners[k], corners[(k + 1) % count]);
-        let edges = edges_of_stretch(document, id, k, (to - from).length() / spacing);
+        let edges = edges_of_stretch(document, id, k, (to - from).length() / spacings[k]);
         shape.controls.push((count_u32(shape.nodes.len()), curve.through[k]));
         let given =
             |i: usize| curve.tangents.get(&curve.through[i]).map(|direction| direction.normalize_or_zero());
@@ -55,21 +56,27 @@ pub(crate) fn build_curve(
             break;
         }
         if round % 3 == 2 {
-            maintain::spread(&mut shape);
+            // Evenly within each stretch, however fine it is.
+            maintain::spread(&mut shape, &Along::Even(1.0));
         }
     }
     Ok(shape)
 }
 
-/// The places that a curve runs through and the number of its stretches, if it can be sampled at a spacing.
-fn curve_corners(document: &Document, id: CurveId, spacing: f64) -> Result<(Vec<DVec3>, usize), ModelError> {
+/// The places that a curve runs through and the number of its stretches, if each can be sampled at its spacing.
+fn curve_corners(
+    document: &Document,
+    id: CurveId,
+    spacings: &[f64],
+) -> Result<(Vec<DVec3>, usize), ModelError> {
     let curve = document.curves.get(&id).ok_or(ModelError::NoCurve(id))?;
     let at = |point: &PointId| document.points.get(point).copied().ok_or(ModelError::NoPoint(*point));
     let corners = curve.through.iter().map(at).collect::<Result<Vec<_>, _>>()?;
     let count = corners.len();
     let stretches = if curve.closed { count } else { count - 1 };
     let length = |k: usize| (corners[(k + 1) % count] - corners[k]).length();
-    check_budget(spacing, (0..stretches).map(length).sum::<f64>() / spacing, NODE_BUDGET / 4)?;
+    let finest = spacings.iter().copied().fold(f64::INFINITY, f64::min);
+    check_budget(finest, (0..stretches).map(|k| length(k) / spacings[k]).sum(), NODE_BUDGET / 4)?;
     let is_empty = |k: usize| length(k) <= LEAST_EXTENT * (1.0 + corners[k].abs().max_element());
     if (0..stretches).any(is_empty) {
         return Err(ModelError::NoExtent(id.to_string()));
@@ -80,9 +87,10 @@ fn curve_corners(document: &Document, id: CurveId, spacing: f64) -> Result<(Vec<
 /// Whether a document with sound topology could be opened: every stretch of a curve has an extent, every surface
 /// an area, and both are within the budget. An act that only moves controls must leave such a document behind:
 /// one that could not be opened again would be lost.
-pub(crate) fn check_extents(document: &Document, spacing: f64) -> Result<(), ModelError> {
+pub(crate) fn check_extents(model: &Model) -> Result<(), ModelError> {
+    let document = &model.document;
     for id in document.curves.keys() {
-        curve_corners(document, *id, spacing)?;
+        curve_corners(document, *id, &density::of_stretches(model, *id)?)?;
     }
     for (id, surface) in &document.surfaces {
         let positions = surface.skeleton.vertices.iter().map(|vertex| match vertex {
@@ -94,7 +102,7 @@ pub(crate) fn check_extents(document: &Document, spacing: f64) -> Result<(), Mod
         let positions = positions.collect::<Result<Vec<_>, _>>()?;
         let corners = surface.skeleton.triangles.iter().map(|t| t.map(|v| positions[v as usize]));
         let area: f64 = corners.map(|[a, b, c]| 0.5 * (b - a).cross(c - a).length()).sum();
-        check_area(*id, area, &positions, surface.spacing.unwrap_or(spacing))?;
+        check_area(*id, area, &positions, model.spacing_of(*id))?;
     }
     Ok(())
 }
@@ -157,10 +165,11 @@ pub(crate) fn build_surface(
     document: &Document,
     curves: &BTreeMap<CurveId, Arc<CurveShape>>,
     id: SurfaceId,
-    spacing: f64,
+    (spacing, is_graded): (f64, bool),
     revision: u64,
 ) -> Result<SurfaceShape, ModelError> {
-    let skeleton = &document.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?.skeleton;
+    let surface = document.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?;
+    let skeleton = &surface.skeleton;
     let mut mesh = Mesh::from_triangles(skeleton.vertices.len(), &skeleton.triangles)
         .map_err(|reason| ModelError::NotASurface { surface: id, reason })?;
     propagate_orientation(&mut mesh);
@@ -175,12 +184,14 @@ pub(crate) fn build_surface(
         });
     }
     check_area(id, measure::total_area(&mesh, &positions), &positions, spacing)?;
-    let bare = SurfaceShape { mesh, positions, embeddings: Vec::new(), pins: Vec::new(), spacing, revision };
+    let (embeddings, pins, wanted) = (Vec::new(), Vec::new(), Vec::new());
+    let bare = SurfaceShape { mesh, positions, embeddings, pins, spacing, wanted, revision };
+    let graded = is_graded.then_some(surface);
     let mut shape = bare.clone();
-    embed_curves(&mut shape, skeleton, curves, Laying::OnCurves)?;
+    embed_curves(&mut shape, skeleton, curves, Laying::OnCurves, graded)?;
     if is_folded(&shape) {
         shape = bare;
-        embed_curves(&mut shape, skeleton, curves, Laying::OnEdges)?;
+        embed_curves(&mut shape, skeleton, curves, Laying::OnEdges, graded)?;
     }
     for (index, vertex) in skeleton.vertices.iter().enumerate() {
         let vertex_id = VertexId::from_index(index);
@@ -240,6 +251,7 @@ fn embed_curves(
     skeleton: &Skeleton,
     curves: &BTreeMap<CurveId, Arc<CurveShape>>,
     laying: Laying,
+    graded: Option<&Surface>,
 ) -> Result<(), ModelError> {
     let mut paths = Vec::with_capacity(skeleton.curves.len());
     for embedding in &skeleton.curves {
@@ -254,17 +266,22 @@ fn embed_curves(
                 cut_path(shape, curve, path, stride, laying);
             }
         }
+        shape.embeddings = paths.iter().map(|path| embedded(path, curves)).collect();
+        if let Some(surface) = graded {
+            density::begin(shape, surface, stride);
+        }
         maintain::refine(shape, stride);
         stride /= 2;
     }
-    for path in paths {
-        let closed = curves.get(&path.curve).is_some_and(|curve| curve.closed);
-        let open_end = usize::from(closed);
-        let vertices =
-            path.placed[..path.placed.len() - open_end].iter().map(|(_, v)| *v).collect::<Vec<_>>();
-        shape.embeddings.push(EmbeddedCurve { curve: path.curve, vertices });
-    }
     Ok(())
+}
+
+/// A curve as far as it is placed.
+fn embedded(path: &Path, curves: &BTreeMap<CurveId, Arc<CurveShape>>) -> EmbeddedCurve {
+    // A closed path ends with its first vertex again.
+    let open_end = usize::from(curves.get(&path.curve).is_some_and(|curve| curve.closed));
+    let vertices = path.placed[..path.placed.len() - open_end].iter().map(|(_, v)| *v).collect();
+    EmbeddedCurve { curve: path.curve, vertices }
 }
 
 /// Marks the skeleton's edges on a curve and gives each of their ends a sample. A closed path ends with its

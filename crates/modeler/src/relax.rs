@@ -2,6 +2,7 @@
 //! them, each a step towards its fairest shape; then the mesh is improved, when nothing moves fast.
 
 use crate::bound::{BoundCurve, BoundSurface, Motion};
+use crate::density;
 use crate::maintain::{self, Upkeep};
 use crate::model::Model;
 use crate::network::Networks;
@@ -50,6 +51,8 @@ pub struct Relaxer {
     upkeep: BTreeMap<SurfaceId, Upkeep>,
     states: BTreeMap<SurfaceId, Relaxation>,
     curves_at_rest: BTreeMap<CurveId, bool>,
+    /// The curves need no other samples.
+    are_curves_quiet: bool,
     steps: u32,
     steps_since_act: u32,
     rounds: u32,
@@ -74,6 +77,7 @@ impl Relaxer {
     pub(crate) fn wake(&mut self) {
         self.states.clear();
         self.curves_at_rest.clear();
+        self.are_curves_quiet = false;
         self.rounds = 0;
         self.steps_since_act = 0;
     }
@@ -82,6 +86,7 @@ impl Relaxer {
     pub(crate) fn hand_moved(&mut self, distance: f64) {
         self.hand = distance;
         if distance > 0.0 {
+            self.are_curves_quiet = false;
             self.rounds = 0;
             self.steps_since_act = 0;
         }
@@ -108,6 +113,7 @@ impl Relaxer {
         let rests = |state: &Relaxation| state.at_rest && state.is_quiet;
         let all_rest = self.states.len() == self.surfaces.len()
             && self.states.values().all(rests)
+            && (self.are_curves_quiet || self.curves.is_empty())
             && self.curves_at_rest.len() == self.curves.len()
             && self.curves_at_rest.values().all(|rests| *rests);
         all_rest || self.steps_since_act >= MOST_STEPS
@@ -184,9 +190,9 @@ impl Relaxer {
 
     /// Whether any mesh no longer does for its shape.
     fn is_worn(&self, model: &Model) -> bool {
-        self.surfaces
-            .iter()
-            .any(|(id, bound)| model.surfaces.get(id).is_some_and(|shape| bound.is_worn(shape.spacing)))
+        self.surfaces.iter().any(|(id, bound)| {
+            model.surfaces.get(id).is_some_and(|shape| bound.is_worn(shape.longest_wanted()))
+        })
     }
 
     /// Steps the curves that have to agree where they meet; returns which those are.
@@ -280,15 +286,24 @@ impl Relaxer {
     fn maintain(&mut self, model: &mut Model) {
         if self.rounds >= MOST_ROUNDS {
             self.states.values_mut().for_each(|state| state.is_quiet = true);
+            self.are_curves_quiet = true;
             return;
         }
-        if self.states.len() == self.surfaces.len() && self.states.values().all(|s| s.is_quiet && s.at_rest) {
+        let are_surfaces_quiet = self.states.len() == self.surfaces.len()
+            && self.states.values().all(|state| state.is_quiet && state.at_rest);
+        if are_surfaces_quiet && self.are_curves_quiet {
             return;
         }
         self.rounds += 1;
+        // With the last collapses the wanted lengths stay as they are, too: then rest is certain.
+        if self.rounds <= COLLAPSING_ROUNDS {
+            density::update(model, &self.surfaces);
+        }
+        self.are_curves_quiet = true;
         for id in model.curves.keys().copied().collect::<Vec<_>>() {
             if maintain::curve(model, id) {
                 self.curves_at_rest.remove(&id);
+                self.are_curves_quiet = false;
             }
         }
         self.bind(model);

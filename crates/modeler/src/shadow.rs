@@ -39,6 +39,11 @@ pub(crate) fn insert_sample(
             shape.positions.resize(shape.mesh.vertex_slots(), at);
             shape.positions[vertex.index()] =
                 shape.positions[from.index()].midpoint(shape.positions[to.index()]);
+            if !shape.wanted.is_empty() {
+                let middle = shape.wanted_at(from).midpoint(shape.wanted_at(to));
+                shape.wanted.resize(shape.mesh.vertex_slots(), middle);
+                shape.wanted[vertex.index()] = middle;
+            }
             shape.embeddings[k].vertices.insert(sample, vertex);
         }
         shape.revision = revision;

@@ -32,8 +32,10 @@ pub struct SurfaceShape {
     pub embeddings: Vec<EmbeddedCurve>,
     /// The control points that it passes through apart from curves.
     pub pins: Vec<Pin>,
-    /// Target edge length.
+    /// Target edge length, where `wanted` says nothing else.
     pub spacing: f64,
+    /// Target edge length by vertex slot, where it is not the same everywhere; else empty.
+    pub wanted: Vec<f64>,
     /// Names this connectivity.
     pub revision: u64,
 }
@@ -122,7 +124,7 @@ impl CurveShape {
     }
 
     /// Second derivative by arc length at a sample, from the chords to both neighbours.
-    fn second_derivative(&self, sample: usize) -> DVec3 {
+    pub(crate) fn second_derivative(&self, sample: usize) -> DVec3 {
         let count = self.nodes.len();
         if !self.closed && (sample == 0 || sample + 1 == count) {
             return DVec3::ZERO;
@@ -142,6 +144,19 @@ impl SurfaceShape {
         on_curves.chain(self.pins.iter().map(|pin| pin.vertex))
     }
 
+    /// Target edge length at a vertex.
+    #[must_use]
+    pub fn wanted_at(&self, v: VertexId) -> f64 {
+        self.wanted.get(v.index()).copied().unwrap_or(self.spacing)
+    }
+
+    /// The longest edge that is wanted anywhere.
+    #[must_use]
+    pub fn longest_wanted(&self) -> f64 {
+        let all = self.mesh.vertices().filter_map(|v| self.wanted.get(v.index()).copied());
+        all.reduce(f64::max).unwrap_or(self.spacing)
+    }
+
     /// Largest distance of a vertex from the centre of their box.
     #[must_use]
     pub fn radius(&self) -> f64 {
@@ -158,6 +173,7 @@ impl SurfaceShape {
     #[must_use]
     pub fn bytes(&self) -> usize {
         24 * self.positions.len()
+            + 8 * self.wanted.len()
             + 16 * self.mesh.vertex_slots()
             + 24 * self.mesh.edge_slots()
             + 40 * self.mesh.face_slots()

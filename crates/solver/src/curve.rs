@@ -38,7 +38,7 @@ use crate::objective::Objective;
 use crate::predictor::{self, Predicted};
 
 pub use network::{Network, Spoke, Strand};
-pub use resample::{Resampled, resample, respace};
+pub use resample::{Resampled, resample, respace, respace_graded};
 
 use bends::Bends;
 use objective::Character;

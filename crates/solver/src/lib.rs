@@ -49,7 +49,9 @@ mod smooth;
 mod surface;
 pub mod workload;
 
-pub use curve::{CurveSettings, CurveSolver, Network, Resampled, Spoke, Strand, resample, respace};
+pub use curve::{
+    CurveSettings, CurveSolver, Network, Resampled, Spoke, Strand, resample, respace, respace_graded,
+};
 pub use error::{Budget, Settings, SolverError};
 pub use factor::FactorError;
 pub use fit::Curvature;

@@ -301,6 +301,11 @@ impl SurfaceSolver {
         self.fits.nodes.iter().map(|fit| fit.jacobian)
     }
 
+    /// The mean length of the edges at every node in the newest fit.
+    pub fn mean_edges(&self) -> impl ExactSizeIterator<Item = f64> {
+        self.fits.nodes.iter().map(|fit| fit.h)
+    }
+
     /// The longest edge in the newest fit.
     pub fn longest_edge(&self) -> f64 {
         self.fits.lengths.iter().fold(0.0, |longest, &length| longest.max(length))

@@ -24,6 +24,8 @@ pub struct Document {
     pub objective: Objective,
     /// Target edge length of the approximating mesh, in model units; `None` leaves it to the modeler.
     pub spacing: Option<f64>,
+    /// How edge lengths vary over its surfaces and curves where they do not say otherwise.
+    pub density: Density,
     /// The control points.
     pub points: BTreeMap<PointId, DVec3>,
     /// The control curves.
@@ -63,6 +65,36 @@ impl Objective {
     }
 }
 
+/// How the edge lengths of a mesh vary over a surface or along a curve.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Density {
+    /// All about as long as the spacing says.
+    #[default]
+    Uniform,
+    /// Shorter than that where the shape bends much, longer where it is nearly flat.
+    Curvature,
+}
+
+impl Density {
+    /// Both, in the order of a menu.
+    pub const ALL: [Self; 2] = [Self::Uniform, Self::Curvature];
+
+    /// Its name on the page.
+    #[must_use]
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Uniform => "Uniform",
+            Self::Curvature => "By curvature",
+        }
+    }
+
+    /// Whether it is what a document has that does not say.
+    pub(crate) fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
 /// A fair curve through control points, in order.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -89,16 +121,19 @@ pub struct Surface {
     /// Target edge length where it differs from the document's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spacing: Option<f64>,
+    /// How edge lengths vary over it where that differs from the document's choice.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub density: Option<Density>,
     /// What it minimises where that differs from the document's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub objective: Option<Objective>,
-    /// Regions that minimise something else than the rest of it.
+    /// Regions that minimise something else than the rest of it, or have another edge length.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub regions: Vec<Region>,
 }
 
 /// A region of a surface: what lies beside a stretch of one of its curves, up to the next curves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Region {
     /// A curve at its border.
@@ -107,8 +142,12 @@ pub struct Region {
     pub from: PointId,
     /// On which side of it.
     pub side: Side,
-    /// What the region minimises.
-    pub objective: Objective,
+    /// What the region minimises, if something else than the surface.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub objective: Option<Objective>,
+    /// Its target edge length in model units, if another than the surface's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spacing: Option<f64>,
 }
 
 /// A side of a curve in a surface, along the curve, seen from where the triangles beside it look counter-clockwise.
@@ -166,7 +205,7 @@ impl Surface {
     /// A surface with this skeleton, without choices of its own.
     #[must_use]
     pub fn new(skeleton: Skeleton) -> Self {
-        Self { skeleton, spacing: None, objective: None, regions: Vec::new() }
+        Self { skeleton, spacing: None, density: None, objective: None, regions: Vec::new() }
     }
 }
 
@@ -181,6 +220,12 @@ impl Document {
     #[must_use]
     pub fn objective_of_surface(&self, surface: SurfaceId) -> Objective {
         self.surfaces.get(&surface).and_then(|surface| surface.objective).unwrap_or(self.objective)
+    }
+
+    /// How edge lengths vary over a surface.
+    #[must_use]
+    pub fn density_of_surface(&self, surface: SurfaceId) -> Density {
+        self.surfaces.get(&surface).and_then(|surface| surface.density).unwrap_or(self.density)
     }
 
     /// The smallest identity that no point has yet and that lies above all those in use.

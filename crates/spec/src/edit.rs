@@ -1,7 +1,7 @@
 //! The acts of a designer. One word = one variant = one file in the modeler's `operation/` = one word of
 //! the command line = one label on the page.
 
-use crate::document::Objective;
+use crate::document::{Density, Objective};
 use crate::id::{CurveId, PointId, SurfaceId};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -76,8 +76,17 @@ pub enum Edit {
     },
     /// Sets the target edge length of the approximation; `None` leaves it to the modeler.
     Spacing {
-        /// In model units.
+        /// Whose edge length it is.
+        of: SpacingOf,
+        /// In model units; `None` follows what the surface or the document says.
         spacing: Option<f64>,
+    },
+    /// Chooses how edge lengths vary.
+    Density {
+        /// Which surface's choice it is; `None` for the document's.
+        of: Option<SurfaceId>,
+        /// The choice; `None` follows the document (and for the document means the default).
+        density: Option<Density>,
     },
     /// Chooses what shapes minimise.
     Objective {
@@ -116,6 +125,7 @@ impl Edit {
             Self::Release { .. } => "Release",
             Self::DeletePoint { .. } | Self::DeleteCurve { .. } | Self::DeleteSurface { .. } => "Delete",
             Self::Spacing { .. } => "Resolution",
+            Self::Density { .. } => "Density",
             Self::Objective { .. } => "Objective",
             Self::Tangent { .. } => "Tangent",
             Self::Rename { .. } => "Rename",
@@ -130,6 +140,22 @@ pub enum ObjectiveOf {
     Document,
     /// A curve.
     Curve(CurveId),
+    /// A surface.
+    Surface(SurfaceId),
+    /// The region of a surface, between its curves, nearest to a place.
+    Region {
+        /// Which surface.
+        surface: SurfaceId,
+        /// Where, roughly.
+        at: DVec3,
+    },
+}
+
+/// What an edge length is set for.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum SpacingOf {
+    /// Everything that has none of its own.
+    Document,
     /// A surface.
     Surface(SurfaceId),
     /// The region of a surface, between its curves, nearest to a place.

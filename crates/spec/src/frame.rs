@@ -75,12 +75,14 @@ pub struct Structure {
 pub const NO_REGION: u16 = u16::MAX;
 
 /// A region of a surface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RegionEntry {
     /// Of which surface.
     pub surface: SurfaceId,
     /// What it minimises, if it has a choice of its own.
     pub objective: Option<Objective>,
+    /// Its target edge length, if it has one of its own.
+    pub spacing: Option<f64>,
 }
 
 /// The part of a frame that belongs to a surface.

@@ -16,9 +16,10 @@ mod text;
 mod validate;
 
 pub use document::{
-    Curve, Document, Embedding, MAX_COORDINATE, Objective, Region, Side, Skeleton, SkeletonVertex, Surface,
+    Curve, Density, Document, Embedding, MAX_COORDINATE, Objective, Region, Side, Skeleton, SkeletonVertex,
+    Surface,
 };
-pub use edit::{Edit, GrabTarget, ObjectiveOf, Through};
+pub use edit::{Edit, GrabTarget, ObjectiveOf, SpacingOf, Through};
 pub use example::Example;
 pub use frame::{
     CurveRole, CurveSpan, Figures, FrameHeader, NO_REGION, PointEntry, PointRole, RegionEntry, Structure,

@@ -4,7 +4,7 @@
 //! read back to the same bits, so a round trip is exact. Unknown fields, repeated keys and newer versions
 //! are refused with their place: silently dropping what one does not understand would lose work.
 
-use crate::document::{Curve, Document, Objective, Surface};
+use crate::document::{Curve, Density, Document, Objective, Surface};
 use crate::id::{CurveId, PointId, SurfaceId};
 use crate::validate::Defect;
 use glam::DVec3;
@@ -56,6 +56,8 @@ struct Written<'a> {
     objective: Objective,
     #[serde(skip_serializing_if = "Option::is_none")]
     spacing: Option<f64>,
+    #[serde(skip_serializing_if = "Density::is_default")]
+    density: Density,
     points: &'a BTreeMap<PointId, DVec3>,
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     curves: &'a BTreeMap<CurveId, Curve>,
@@ -74,6 +76,8 @@ struct Read {
     objective: Objective,
     #[serde(default)]
     spacing: Option<f64>,
+    #[serde(default)]
+    density: Density,
     #[serde(default, deserialize_with = "unique")]
     points: BTreeMap<PointId, DVec3>,
     #[serde(default, deserialize_with = "unique")]
@@ -95,12 +99,13 @@ pub fn to_text(document: &Document) -> String {
 /// The document as the shortest text, for a link or a journal.
 #[must_use]
 pub fn to_compact_text(document: &Document) -> String {
-    let Document { name, objective, spacing, points, curves, surfaces } = document;
+    let Document { name, objective, spacing, density, points, curves, surfaces } = document;
     let written = Written {
         ductile: FORMAT_VERSION,
         name,
         objective: *objective,
         spacing: *spacing,
+        density: *density,
         points,
         curves,
         surfaces,
@@ -125,8 +130,8 @@ pub fn from_text(text: &str) -> Result<Document, TextError> {
         return Err(TextError::Form("version 0 does not exist".into()));
     }
     let read: Read = serde_json::from_str(text).map_err(|e| TextError::Form(e.to_string()))?;
-    let Read { name, objective, spacing, points, curves, surfaces, .. } = read;
-    let document = Document { name, objective, spacing, points, curves, surfaces };
+    let Read { name, objective, spacing, density, points, curves, surfaces, .. } = read;
+    let document = Document { name, objective, spacing, density, points, curves, surfaces };
     document.validate()?;
     Ok(document)
 }

@@ -262,6 +262,10 @@ fn validate_regions(id: SurfaceId, surface: &Surface, document: &Document) -> Re
         if !curve.through[..starts].contains(&region.from) {
             return refuse("no stretch of the curve begins at that point");
         }
+        spacing(&format!("{id}, region beside {} from {}", region.curve, region.from), region.spacing)?;
+        if region.objective.is_none() && region.spacing.is_none() {
+            return refuse("nothing is said of it: neither an objective nor a spacing");
+        }
         if !seen.insert((region.curve, region.from, region.side)) {
             return refuse("it is spoken of twice");
         }

@@ -9,6 +9,7 @@ mod canvas;
 #[cfg(target_arch = "wasm32")]
 mod commands;
 #[cfg(target_arch = "wasm32")]
+mod density;
 mod dom;
 #[cfg(target_arch = "wasm32")]
 mod fields;
@@ -25,8 +26,9 @@ mod keyboard;
 #[cfg(target_arch = "wasm32")]
 mod link;
 #[cfg(target_arch = "wasm32")]
-mod notice;
+mod menu;
 #[cfg(target_arch = "wasm32")]
+mod notice;
 mod objectives;
 #[cfg(target_arch = "wasm32")]
 mod opening;

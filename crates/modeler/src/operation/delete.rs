@@ -2,7 +2,7 @@
 
 use crate::error::ModelError;
 use crate::model::Model;
-use crate::operation::{is_unused, objective, refresh_skeleton, release};
+use crate::operation::{is_unused, refresh_skeleton, region, release};
 use crate::shape::edit;
 use ductile_spec::{CurveId, PointId, SkeletonVertex, SurfaceId};
 
@@ -56,7 +56,7 @@ pub(crate) fn curve(model: &mut Model, id: CurveId) -> Result<(), ModelError> {
         shape.embeddings.retain(|e| e.curve != id);
         shape.revision = revision;
     }
-    objective::forget_curve(model, id);
+    region::forget_curve(model, id);
     model.document_mut().curves.remove(&id);
     model.curves.remove(&id);
     for surface in surfaces {

@@ -3,13 +3,16 @@
 
 mod curve;
 mod delete;
+mod density;
 mod insert;
 mod objective;
 mod pin;
 mod point;
+mod region;
 mod release;
 mod sheet;
 mod slide;
+mod spacing;
 mod sweep;
 mod tangent;
 
@@ -49,7 +52,8 @@ fn act(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result<(), ModelErr
         Edit::DeletePoint { point } => delete::point(model, *point),
         Edit::DeleteCurve { curve } => delete::curve(model, *curve),
         Edit::DeleteSurface { surface } => delete::surface(model, *surface),
-        Edit::Spacing { spacing } => respace(model, *spacing),
+        Edit::Spacing { of, spacing } => spacing::respace(model, *of, *spacing),
+        Edit::Density { of, density } => density::choose(model, *of, *density),
         Edit::Objective { of, objective } => objective::choose(model, *of, *objective),
         Edit::Tangent { curve, point, direction } => tangent::tangent(model, *curve, *point, *direction),
         Edit::Rename { name } => {
@@ -57,17 +61,6 @@ fn act(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result<(), ModelErr
             Ok(model.document.validate()?)
         }
     }
-}
-
-/// Builds everything anew at another density.
-fn respace(model: &mut Model, spacing: Option<f64>) -> Result<(), ModelError> {
-    let mut document = (*model.document).clone();
-    document.spacing = spacing;
-    let mut fresh = Model::from_document(document)?;
-    fresh.continue_revisions(model);
-    fresh.renew_revisions();
-    *model = fresh;
-    Ok(())
 }
 
 /// The position that a document keeps for one that was pointed at.

@@ -62,7 +62,7 @@ fn place_on(shape: &SurfaceShape, bound: Option<&BoundSurface>, at: DVec3) -> Op
     let share = |p: DVec3, q: DVec3| (p - flat).cross(q - flat).dot(normal).max(0.0);
     let (mut sum, mut total) = (DVec3::ZERO, 0.0);
     for (v, share) in corners.into_iter().zip([share(b, c), share(c, a), share(a, b)]) {
-        if let Some(place) = bound.near(v, flat).filter(|place| place.distance(flat) < shape.spacing) {
+        if let Some(place) = bound.near(v, flat).filter(|place| place.distance(flat) < shape.wanted_at(v)) {
             sum += place * share;
             total += share;
         }
@@ -79,8 +79,9 @@ fn vertex_at(
 ) -> Result<VertexId, ModelError> {
     let corners = shape.mesh.face_vertices(face);
     let distance = |shape: &SurfaceShape, v: VertexId| shape.positions[v.index()].distance(place);
-    let is_taken =
-        |v: &VertexId| shape.mesh.is_source_vertex(*v) && distance(shape, *v) < OCCUPIED * shape.spacing;
+    let is_taken = |v: &VertexId| {
+        shape.mesh.is_source_vertex(*v) && distance(shape, *v) < OCCUPIED * shape.wanted_at(*v)
+    };
     if corners.iter().any(is_taken) {
         return Err(ModelError::Occupied);
     }

@@ -2,7 +2,7 @@
 
 use crate::error::ModelError;
 use crate::model::Model;
-use crate::operation::{is_unused, objective, refresh_skeleton};
+use crate::operation::{is_unused, refresh_skeleton, region};
 use crate::shape::edit;
 use ductile_mesh::SourceTag;
 use ductile_spec::{CurveId, PointId};
@@ -50,7 +50,7 @@ fn release_from_curve(model: &mut Model, id: CurveId, point: PointId) -> Result<
     }
     let place = curve.through.iter().position(|other| *other == point).unwrap_or(0);
     let before = curve.through[(place + curve.through.len() - 1) % curve.through.len()];
-    objective::forget_point(model, id, point, before);
+    region::forget_point(model, id, point, before);
     if let Some(curve) = model.document_mut().curves.get_mut(&id) {
         curve.through.retain(|other| *other != point);
         curve.tangents.remove(&point);

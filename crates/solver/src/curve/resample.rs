@@ -1,4 +1,4 @@
-//! Even spacing between control points without changing the shape.
+//! Even or graded spacing between control points without changing the shape.
 //!
 //! Between two nodes the curve is read as the blend of both nodes' quadratics (parabolic blending, Overhauser 1968),
 //! which passes through every node with a continuous tangent. New nodes are placed on it at equal arc length; fixed
@@ -27,7 +27,32 @@ pub struct Resampled {
 
 /// Spaces the nodes between control points evenly, keeping their number.
 pub fn respace(positions: &mut [DVec3], closed: bool, fixed: &[bool]) -> Result<(), SolverError> {
-    let spans = Spans::new(positions, closed, fixed)?;
+    respace_by(positions, closed, fixed, None)
+}
+
+/// The same with edges in proportion to a wanted length at each node, which runs linearly between nodes.
+///
+/// Lengths that are not positive numbers are refused.
+pub fn respace_graded(
+    positions: &mut [DVec3],
+    closed: bool,
+    fixed: &[bool],
+    wanted: &[f64],
+) -> Result<(), SolverError> {
+    check_length(positions.len(), wanted.len())?;
+    if let Some(node) = wanted.iter().position(|h| !(h.is_finite() && *h > 0.0)) {
+        return Err(SolverError::NotFinite(u32::try_from(node).unwrap_or(u32::MAX)));
+    }
+    respace_by(positions, closed, fixed, Some(wanted))
+}
+
+fn respace_by(
+    positions: &mut [DVec3],
+    closed: bool,
+    fixed: &[bool],
+    wanted: Option<&[f64]>,
+) -> Result<(), SolverError> {
+    let spans = Spans { wanted, ..Spans::new(positions, closed, fixed)? };
     let mut respaced = positions.to_vec();
     for span in &spans.list {
         let points = spans.points(span, span.edges);
@@ -102,6 +127,8 @@ struct Spans<'a> {
     positions: &'a [DVec3],
     chain: Chain,
     list: Vec<Span>,
+    /// Wanted edge length by node, if edges are to differ.
+    wanted: Option<&'a [f64]>,
 }
 
 impl<'a> Spans<'a> {
@@ -123,10 +150,10 @@ impl<'a> Spans<'a> {
         if list.is_empty() && !positions.is_empty() {
             list.push(Span { first: start, edges: 0 });
         }
-        Ok(Self { positions, chain, list })
+        Ok(Self { positions, chain, list, wanted: None })
     }
 
-    /// Inner points that cut the span into `edges` pieces of equal arc length.
+    /// Inner points that cut the span into `edges` pieces of equal arc length, in units of what is wanted there.
     fn points(&self, span: &Span, edges: usize) -> Vec<DVec3> {
         let total = self.length(span);
         let mut points = Vec::with_capacity(edges.saturating_sub(1));
@@ -136,7 +163,7 @@ impl<'a> Spans<'a> {
             let mut here = self.evaluate(edge, 0.0);
             for step in 1..=SUBDIVISIONS {
                 let ahead = self.evaluate(edge, step as f64 / SUBDIVISIONS as f64);
-                let chord = here.distance(ahead);
+                let chord = self.measure(edge, step, here.distance(ahead));
                 while next < edges && total * next as f64 / edges as f64 <= walked + chord && chord > 0.0 {
                     let part = (total * next as f64 / edges as f64 - walked) / chord;
                     points.push(self.evaluate(edge, (step as f64 - 1.0 + part) / SUBDIVISIONS as f64));
@@ -159,11 +186,19 @@ impl<'a> Spans<'a> {
             let mut here = self.evaluate(edge, 0.0);
             for step in 1..=SUBDIVISIONS {
                 let ahead = self.evaluate(edge, step as f64 / SUBDIVISIONS as f64);
-                sum += here.distance(ahead);
+                sum += self.measure(edge, step, here.distance(ahead));
                 here = ahead;
             }
         }
         sum
+    }
+
+    /// The length of a chord in units of the length wanted at its middle.
+    fn measure(&self, edge: usize, step: usize, chord: f64) -> f64 {
+        let Some(wanted) = self.wanted else { return chord };
+        let at = |node: usize| wanted[node % wanted.len()];
+        let part = (step as f64 - 0.5) / SUBDIVISIONS as f64;
+        chord / (at(edge) * (1.0 - part) + at(edge + 1) * part)
     }
 
     /// The curve on the edge from node `edge` to the next, at `w` in [0, 1].

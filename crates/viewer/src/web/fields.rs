@@ -1,5 +1,6 @@
 //! The fields in which the designer types: coordinates, directions, edge length, name.
 
+use super::density;
 use super::dom;
 use super::page::{Page, act};
 use super::tangent;
@@ -20,7 +21,9 @@ pub(crate) fn listen() {
     for (index, id) in tangent::FIELDS.into_iter().enumerate() {
         on_field(id, move |page, text| page.typed_tangent(index, text));
     }
-    on_field("spacing", Page::typed_spacing);
+    for id in density::FIELDS {
+        on_field(id, move |page, text| page.typed_spacing(id, text));
+    }
     on_field("name", |page, text| {
         let name = text.trim().to_owned();
         if name != page.document.name {
@@ -67,7 +70,7 @@ impl Page {
 
     /// Writes the present values into the fields.
     pub(crate) fn show_fields(&self) {
-        for id in COORDINATES.into_iter().chain(tangent::FIELDS).chain(["spacing"]) {
+        for id in COORDINATES.into_iter().chain(tangent::FIELDS).chain(density::FIELDS) {
             self.fill_field(&dom::element_as(id), false);
         }
     }
@@ -84,7 +87,7 @@ impl Page {
         }
         let value = match (id.as_str(), self.selection) {
             ("name", _) => self.document.name.clone(),
-            ("spacing", _) => self.document.spacing.map(number::show).unwrap_or_default(),
+            (field, _) if density::FIELDS.contains(&field) => self.spacing_text(field),
             (field, Selection::Point(_)) if tangent::FIELDS.contains(&field) => {
                 self.tangent_text(tangent::FIELDS.iter().position(|name| *name == field).unwrap_or(0))
             }
@@ -118,22 +121,6 @@ impl Page {
             }
             Err(error) => Some(error.to_string()),
         }
-    }
-
-    fn typed_spacing(&mut self, text: &str) -> Option<String> {
-        let spacing = if text.trim().is_empty() {
-            None
-        } else {
-            match number::parse(text) {
-                Ok(value) if value > 0.0 => Some(value),
-                Ok(_) => return Some("An edge length is above 0; nothing means automatic.".to_owned()),
-                Err(error) => return Some(error.to_string()),
-            }
-        };
-        if spacing.map(number::show) != self.document.spacing.map(number::show) {
-            self.request(Request::Edit(Edit::Spacing { spacing }));
-        }
-        None
     }
 
     /// Says what is wrong with what was typed, or that nothing is.

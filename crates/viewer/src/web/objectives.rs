@@ -1,10 +1,10 @@
 //! What shapes minimise, in the properties: one choice for the document, and one for whatever is selected.
 
 use super::dom;
+use super::menu;
 use super::page::{Page, act};
 use crate::tool::Selection;
 use ductile_spec::{Edit, Objective, ObjectiveOf, Request, SurfaceId};
-use web_sys::{Event, HtmlSelectElement};
 
 /// The selects of index.html.
 const OWN: &str = "objective";
@@ -13,19 +13,8 @@ const REGION: &str = "region-objective";
 /// Fills the selects and listens to them.
 pub(crate) fn listen() {
     for id in [OWN, REGION] {
-        let select: HtmlSelectElement = dom::element_as(id);
-        for (value, name) in [(String::new(), "")]
-            .into_iter()
-            .chain(Objective::ALL.into_iter().enumerate().map(|(place, o)| (place.to_string(), o.label())))
-        {
-            let option = dom::create_with("option", "", name);
-            dom::attribute(&option, "value", &value);
-            dom::append(&select, [&option]);
-        }
-        let own = select.clone();
-        dom::listen(&select, "change", move |_: Event| {
-            let chosen =
-                own.value().parse::<usize>().ok().and_then(|place| Objective::ALL.get(place).copied());
+        menu::fill(id, Objective::ALL.map(Objective::label), move |place| {
+            let chosen = place.and_then(|place| Objective::ALL.get(place).copied());
             act(move |page| page.choose_objective(id == REGION, chosen));
         });
     }
@@ -49,7 +38,7 @@ impl Page {
     }
 
     /// Where the selected surface was clicked.
-    fn picked_place(&self, surface: SurfaceId) -> Option<glam::Vec3> {
+    pub(crate) fn picked_place(&self, surface: SurfaceId) -> Option<glam::Vec3> {
         self.picked.filter(|(picked, _)| *picked == surface).map(|(_, at)| at)
     }
 
@@ -80,18 +69,6 @@ impl Page {
 
 /// Shows a choice; the entry without one is there only where something is inherited.
 fn show_choice(id: &str, objective: Option<Objective>, inherited: Option<&str>) {
-    let select: HtmlSelectElement = dom::element_as(id);
-    if let Some(first) = select.query_selector("option").ok().flatten() {
-        dom::text(&first, inherited.unwrap_or_default());
-        if inherited.is_some() {
-            let _ = first.remove_attribute("hidden");
-        } else {
-            dom::attribute(&first, "hidden", "");
-        }
-    }
     let place = objective.and_then(|own| Objective::ALL.iter().position(|other| *other == own));
-    let value = place.map(|place| place.to_string()).unwrap_or_default();
-    if select.value() != value {
-        select.set_value(&value);
-    }
+    menu::show(id, place, inherited);
 }

@@ -8,7 +8,7 @@ use super::panel::Panel;
 use super::port::Port;
 use super::settings::Settings;
 use super::stage::Stage;
-use super::{canvas, commands, fields, files, inspect, keyboard, link, objectives, opening, stage};
+use super::{canvas, commands, density, fields, files, inspect, keyboard, link, objectives, opening, stage};
 use crate::limit::Limit;
 use crate::memory::Memory;
 use crate::schedule::Schedule;
@@ -130,6 +130,7 @@ pub(crate) fn start() {
     canvas::listen();
     fields::listen();
     objectives::listen();
+    density::listen();
     files::listen();
     link::listen();
     stage::listen();

@@ -214,7 +214,6 @@ impl Page {
         };
         dom::text(&dom::element("properties-title"), &title);
         dom::show(&dom::element("point-properties"), matches!(self.selection, Selection::Point(_)));
-        dom::show(&dom::element("document-properties"), self.selection == Selection::None);
         let role = match self.selection {
             Selection::Point(id) => entry(structure, id).map(|entry| entry.role),
             _ => None,
@@ -230,6 +229,7 @@ impl Page {
         }
         self.show_fields();
         self.show_objectives();
+        self.show_density();
     }
 
     fn facts(&self, role: Option<PointRole>) -> Vec<(&'static str, String)> {
