@@ -255,3 +255,29 @@ fn surfaces_with_one_side_are_welcome() {
     let summary = ductile_mesh::summary(&shape.mesh);
     assert!(!summary.is_orientable && summary.euler == 0, "{summary:?}");
 }
+
+/// A history may hold a document that can be read and yet not be built: undo says so, and the entry is not lost.
+#[test]
+fn an_undo_that_cannot_be_built_is_refused_and_stays_in_the_history() {
+    let mut bench = Bench::with(Example::Disc);
+    bench.rest(300);
+    let good = bench.document.clone();
+    let mut flat = bench.document();
+    let at = flat.points.values().next().copied().unwrap();
+    flat.points.values_mut().for_each(|place| *place = at);
+    let entry = |act: &str, document: String| Remembered { act: act.into(), document };
+    let undo = vec![entry("Point", good.clone()), entry("Flatten", ductile_spec::to_compact_text(&flat))];
+    let redo = vec![entry("Unflatten", ductile_spec::to_compact_text(&flat))];
+    bench.accept(Request::Resume(Resume { document: good.clone(), undo, redo }));
+    for _ in 0..2 {
+        for request in [Request::Undo, Request::Redo] {
+            assert!(bench.send(request).refused.is_some());
+        }
+        let committed = bench.accept(Request::Describe).committed.unwrap();
+        assert_eq!(
+            (committed.undo.as_deref(), committed.redo.as_deref()),
+            (Some("Flatten"), Some("Unflatten"))
+        );
+        assert_eq!(committed.document, good);
+    }
+}

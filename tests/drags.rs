@@ -29,6 +29,37 @@ fn a_drag_of_the_surface_makes_a_control_point_that_the_shape_follows() {
     assert!(bench.rest(300) < 1e-6);
 }
 
+/// How many triangles the first surface has.
+fn triangles(bench: &Bench) -> usize {
+    bench.modeler.model().surfaces[&SurfaceId(1)].mesh.face_count()
+}
+
+#[test]
+fn a_mesh_that_a_moving_hand_stretches_is_refined_under_way_and_one_that_still_does_is_left_alone() {
+    let mut bench = Bench::with(Example::Disc);
+    bench.rest(300);
+    let target = GrabTarget::Surface { surface: SurfaceId(1), at: dvec3(0.02, 0.01, 0.0) };
+    let grabbed = bench.accept(Request::Grab(target)).grabbed.unwrap();
+    // The new control makes its own edits first, with the hand at rest.
+    for _ in 0..30 {
+        bench.step(None);
+    }
+    let before = bench.modeler.model().surfaces[&SurfaceId(1)].revision;
+    let count = triangles(&bench);
+    let mut height = 0.0;
+    let mut rise = |bench: &mut Bench, steps: u32| {
+        for _ in 0..steps {
+            // Slower than a spacing for each frame, but never still.
+            height += 0.02;
+            bench.step(Some(grabbed.at + DVec3::Z * height));
+        }
+    };
+    rise(&mut bench, 10);
+    assert_eq!(bench.modeler.model().surfaces[&SurfaceId(1)].revision, before, "nothing is worn yet");
+    rise(&mut bench, 90);
+    assert!(triangles(&bench) > count + count / 10, "{count} {}", triangles(&bench));
+}
+
 #[test]
 fn a_drag_of_a_curve_carries_its_surface() {
     let mut bench = Bench::with(Example::Disc);

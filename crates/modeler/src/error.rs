@@ -99,6 +99,22 @@ pub enum ModelError {
         /// How many fit.
         limit: usize,
     },
+    /// A curve does not pass through a point, so that it has no direction there.
+    #[error("{curve} does not pass through {point}")]
+    NotOnCurve {
+        /// The curve.
+        curve: CurveId,
+        /// The point.
+        point: PointId,
+    },
+    /// A surface has no edge where a curve that it follows has one: our mistake, not the designer's.
+    #[error("{surface} no longer follows {curve} edge by edge")]
+    TornOff {
+        /// The curve.
+        curve: CurveId,
+        /// The surface.
+        surface: SurfaceId,
+    },
     /// Nothing is held.
     #[error("nothing is held")]
     NothingHeld,

@@ -60,18 +60,28 @@ impl History {
         self.trim();
     }
 
-    /// Takes back the last act: returns its name and the state before it.
-    pub(crate) fn undo(&mut self, now: &Model) -> Option<(String, State)> {
-        let Entry { act, state } = self.undo.pop()?;
-        self.redo.push(Entry { act: act.clone(), state: State::Whole(now.clone()) });
-        Some((act, state))
+    /// The state before the last act. Nothing changes until it was gone back to.
+    pub(crate) fn before_last(&self) -> Option<State> {
+        self.undo.last().map(|entry| entry.state.clone())
     }
 
-    /// Does the last undone act again: returns its name and the state after it.
-    pub(crate) fn redo(&mut self, now: &Model) -> Option<(String, State)> {
-        let Entry { act, state } = self.redo.pop()?;
+    /// The state after the last undone act.
+    pub(crate) fn after_next(&self) -> Option<State> {
+        self.redo.last().map(|entry| entry.state.clone())
+    }
+
+    /// The last act was taken back, from the model as it was: returns its name.
+    pub(crate) fn undone(&mut self, now: &Model) -> Option<String> {
+        let Entry { act, .. } = self.undo.pop()?;
+        self.redo.push(Entry { act: act.clone(), state: State::Whole(now.clone()) });
+        Some(act)
+    }
+
+    /// The last undone act was done again, from the model as it was: returns its name.
+    pub(crate) fn redone(&mut self, now: &Model) -> Option<String> {
+        let Entry { act, .. } = self.redo.pop()?;
         self.undo.push(Entry { act: act.clone(), state: State::Whole(now.clone()) });
-        Some((act, state))
+        Some(act)
     }
 
     /// The act that undo would take back.
@@ -96,5 +106,46 @@ impl History {
                 }
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::SurfaceShape;
+    use ductile_mesh::Mesh;
+    use ductile_spec::SurfaceId;
+    use glam::DVec3;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    /// A model whose shapes need a third of what a history may hold, and a little more.
+    fn large() -> Model {
+        let shape = SurfaceShape {
+            mesh: Mesh::from_triangles(3, &[[0, 1, 2]]).unwrap(),
+            positions: vec![DVec3::ZERO; SHAPE_BUDGET / 24 / 3 + 1000],
+            embeddings: Vec::new(),
+            pins: Vec::new(),
+            spacing: 1.0,
+            revision: 1,
+        };
+        let mut model = Model::default();
+        model.surfaces.insert(SurfaceId(1), Arc::new(shape));
+        model
+    }
+
+    #[test]
+    fn the_oldest_shapes_are_let_go_for_memory_and_their_documents_stay() {
+        let (mut history, model) = (History::default(), large());
+        for act in ["one", "two", "three", "four"] {
+            history.record(act, model.clone());
+        }
+        let is_whole = |entry: &Entry| matches!(entry.state, State::Whole(_));
+        assert_eq!(history.undo.iter().map(is_whole).collect::<Vec<_>>(), [false, false, true, true]);
+        for act in ["four", "three", "two", "one"] {
+            assert!(history.before_last().is_some());
+            assert_eq!(history.undone(&model).as_deref(), Some(act));
+        }
+        assert_eq!(history.next_redo(), Some("one"));
     }
 }

@@ -252,8 +252,9 @@ impl Modeler {
         if self.grab.is_some() {
             return Err(ModelError::Dragging);
         }
-        let (act, state) = self.history.undo(&self.model).ok_or(ModelError::NothingToUndo)?;
-        self.go_to(state)?;
+        let state = self.history.before_last().ok_or(ModelError::NothingToUndo)?;
+        let now = self.go_to(state)?;
+        let act = self.history.undone(&now).ok_or(ModelError::NothingToUndo)?;
         Ok(Outcome { committed: Some(format!("Undo {act}")), ..Outcome::default() })
     }
 
@@ -261,12 +262,14 @@ impl Modeler {
         if self.grab.is_some() {
             return Err(ModelError::Dragging);
         }
-        let (act, state) = self.history.redo(&self.model).ok_or(ModelError::NothingToRedo)?;
-        self.go_to(state)?;
+        let state = self.history.after_next().ok_or(ModelError::NothingToRedo)?;
+        let now = self.go_to(state)?;
+        let act = self.history.redone(&now).ok_or(ModelError::NothingToRedo)?;
         Ok(Outcome { committed: Some(format!("Redo {act}")), ..Outcome::default() })
     }
 
-    fn go_to(&mut self, state: State) -> Result<(), ModelError> {
+    /// Goes to a state of the history, if it can be built. Returns the model that was left.
+    fn go_to(&mut self, state: State) -> Result<Model, ModelError> {
         let model = match state {
             State::Whole(model) => model,
             State::Document(document) => {
@@ -276,8 +279,9 @@ impl Modeler {
                 model
             }
         };
+        let now = self.model.clone();
         self.restore(model);
-        Ok(())
+        Ok(now)
     }
 
     fn restore(&mut self, mut model: Model) {

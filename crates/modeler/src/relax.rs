@@ -339,3 +339,6 @@ impl Relaxer {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -9,15 +9,27 @@ use glam::DVec3;
 
 /// Puts a new sample into an edge of a curve and a new vertex into every surface that follows it.
 /// Returns the index of the sample.
+///
+/// # Errors
+/// [`ModelError::TornOff`] before anything has changed, if a surface has no edge where the curve has one.
 pub(crate) fn insert_sample(
     model: &mut Model,
     id: CurveId,
     edge: usize,
     at: DVec3,
 ) -> Result<usize, ModelError> {
+    let (a, b) = model.curves.get(&id).ok_or(ModelError::NoCurve(id))?.edge(edge);
+    for surface in model.document.surfaces_on(id) {
+        let Some(shape) = model.surfaces.get(&surface) else { continue };
+        for followed in shape.embeddings.iter().filter(|followed| followed.curve == id) {
+            let ends = followed.vertices.get(a).zip(followed.vertices.get(b));
+            if ends.and_then(|(from, to)| shape.mesh.edge_between(*from, *to)).is_none() {
+                return Err(ModelError::TornOff { curve: id, surface });
+            }
+        }
+    }
     let revision = model.next_revision();
     let shape = edit(model.curves.get_mut(&id).ok_or(ModelError::NoCurve(id))?);
-    let (a, b) = shape.edge(edge);
     let sample = edge + 1;
     shape.nodes.insert(sample, at);
     for (index, _) in &mut shape.controls {
@@ -94,4 +106,33 @@ pub(crate) fn remove_sample(model: &mut Model, id: CurveId, sample: usize) -> bo
         shape.revision = revision;
     }
     true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::example::example;
+    use ductile_spec::{Example, SurfaceId};
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    #[test]
+    fn a_curve_that_its_surface_has_lost_takes_no_sample_and_nothing_changes() {
+        let (curve, surface) = (CurveId(1), SurfaceId(1));
+        let mut model = Model::from_document(example(Example::Disc)).unwrap();
+        let whole = insert_sample(&mut model, curve, 0, DVec3::X);
+        assert_eq!(whole, Ok(1));
+        let shape = edit(model.surfaces.get_mut(&surface).unwrap());
+        let followed = &mut shape.embeddings[0].vertices;
+        let half = followed.len() / 2;
+        followed.swap(1, half);
+        let (nodes, vertices) =
+            (model.curves[&curve].nodes.clone(), model.surfaces[&surface].mesh.vertex_count());
+        assert_eq!(
+            insert_sample(&mut model, curve, 0, DVec3::X),
+            Err(ModelError::TornOff { curve, surface })
+        );
+        assert_eq!(model.curves[&curve].nodes, nodes);
+        assert_eq!(model.surfaces[&surface].mesh.vertex_count(), vertices);
+    }
 }

@@ -31,6 +31,19 @@ pub fn flip_pass(
     seeds: Seeds<'_>,
     limits: &Limits<'_>,
 ) -> Edits {
+    let budget = MOST_FLIPS_PER_EDGE * mesh.edge_count();
+    flips_within(mesh, positions, sizing, seeds, limits, budget)
+}
+
+/// The same, with so many flips at most.
+pub(super) fn flips_within(
+    mesh: &mut Mesh,
+    positions: &[DVec3],
+    sizing: &Sizing,
+    seeds: Seeds<'_>,
+    limits: &Limits<'_>,
+    mut left: usize,
+) -> Edits {
     let mut edits = Edits::default();
     let mut waiting = vec![false; mesh.edge_slots()];
     let mut queue: VecDeque<EdgeId> = seeds.edges(mesh).into();
@@ -41,7 +54,6 @@ pub fn flip_pass(
             queue.push_back(e);
         }
     };
-    let mut left = MOST_FLIPS_PER_EDGE * mesh.edge_count();
     while let Some(e) = queue.pop_front() {
         waiting[e.index()] = false;
         let Some(diagonal) = wanted(mesh, positions, sizing, e, limits) else { continue };

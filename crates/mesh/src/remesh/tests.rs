@@ -144,6 +144,21 @@ fn crowds_are_thinned_but_pins_stay() {
 }
 
 #[test]
+fn flips_end_with_their_budget_and_say_so() {
+    let (mut mesh, mut positions) = primitive::plane(12, 12, 1.0);
+    jitter_inside(&mesh, &mut positions, 0.45, 4);
+    let limits = Limits::default();
+    let whole = flip_pass(&mut mesh.clone(), &positions, &FREE, Seeds::All, &limits);
+    assert!(whole.flips > 5 && !whole.is_cut_short);
+    let part = flip_pass::flips_within(&mut mesh, &positions, &FREE, Seeds::All, &limits, 3);
+    assert!(part.flips == 3 && part.is_cut_short);
+    assert_eq!(validate(&mesh), Ok(()));
+    // What is left is done by the next pass; the work that just suffices is not called short.
+    let rest = flip_pass(&mut mesh, &positions, &FREE, Seeds::All, &limits);
+    assert!(rest.flips > 0 && !rest.is_cut_short && nothing_to_flip(&mesh, &positions));
+}
+
+#[test]
 fn flips_lower_the_potential_as_far_as_they_may() {
     let (mut mesh, mut positions) = primitive::plane(10, 10, 1.0);
     jitter_inside(&mesh, &mut positions, 0.45, 7);

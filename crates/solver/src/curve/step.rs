@@ -245,3 +245,6 @@ impl CurveSolver {
         worst
     }
 }
+
+#[cfg(test)]
+mod tests;
