@@ -23,11 +23,6 @@ test("density by curvature takes fewer nodes, is undone, and travels with the do
     assert.ok(dense.figures.nodes < 0.75 * before.figures.nodes, `${before.figures.nodes} nodes became ${dense.figures.nodes}`);
     await shows(page, "density", "1");
     await page.locator("#view").focus();
-    if (process.env.SHOTS) {
-      await page.keyboard.press("w");
-      await page.waitForFunction(() => true);
-      await page.screenshot({ path: `${process.env.SHOTS}/density.png` });
-    }
     await page.keyboard.press("Control+z");
     const after = await atRest(page, (state) => state.document === before.document);
     assert.equal(after.figures.nodes, before.figures.nodes);

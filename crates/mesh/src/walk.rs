@@ -287,10 +287,31 @@ impl Mesh {
         self.first_wedge(v).1
     }
 
+    /// The number of neighbours of `v`, and whether they close around it.
+    pub(crate) fn degree(&self, v: VertexId) -> (usize, bool) {
+        let start = Wedge { corner: self.anchor(v), agrees: true };
+        let (mut at, mut count) = (start, 1);
+        while let Some(w) = self.wedge_after(v, at) {
+            if w.corner == start.corner {
+                return (count, true);
+            }
+            at = w;
+            count += 1;
+        }
+        // At a boundary there is one neighbour more than wedges.
+        count += 1;
+        at = start;
+        while let Some(w) = self.wedge_before(v, at) {
+            at = w;
+            count += 1;
+        }
+        (count, false)
+    }
+
     /// The number of neighbours of `v`.
     #[must_use]
     pub fn valence(&self, v: VertexId) -> usize {
-        self.sides_around(v).count()
+        self.degree(v).0
     }
 
     /// Whether `v` lies on the boundary.

@@ -6,7 +6,7 @@ use crate::region::{self, Choice, solver_objective};
 use crate::shape::{CurveShape, SurfaceShape};
 use ductile_mesh::VertexId;
 use ductile_solver::{
-    Aim, CurveSettings, CurveSolver, Predicted, Rings, Settings, SolverError, SurfaceSolver,
+    Aim, CurveSettings, CurveSolver, EdgePlaces, Predicted, Rings, Settings, SolverError, SurfaceSolver,
 };
 use ductile_spec::{CurveId, Document, Objective, PointId, SurfaceId};
 use glam::DVec3;
@@ -155,12 +155,17 @@ impl BoundSurface {
         self.compact[v.index()]
     }
 
+    /// Where the middles of edges lie on the fitted surface.
+    pub(crate) fn edge_places(&self) -> EdgePlaces<'_> {
+        self.solver.edge_places(&self.positions)
+    }
+
     /// The middle of two vertices on the fitted surface, if both had a fit when the solver was bound. (A slot
     /// that was given to a new vertex since then has no neighbour here, and the plain middle comes out.)
-    pub(crate) fn between(&self, a: VertexId, b: VertexId) -> Option<DVec3> {
+    pub(crate) fn between(&self, places: &mut EdgePlaces<'_>, a: VertexId, b: VertexId) -> Option<DVec3> {
         let (a, b) = (self.resolved(a)?, self.resolved(b)?);
         let is_edge = self.solver.rings().ring(a as usize).contains(&b);
-        is_edge.then(|| self.solver.place_on_edge(&self.positions, a, b))
+        is_edge.then(|| places.at(a, b))
     }
 
     /// The place of the fitted surface around a vertex nearest to a given one, if that vertex has a fit that tells.

@@ -127,9 +127,10 @@ pub(crate) fn surface(
     if upkeep.revision != shape.revision {
         *upkeep = Upkeep { revision: shape.revision, ledger: Ledger::default() };
     }
+    let mut places = bound.edge_places();
     let mut place = |mesh: &Mesh, positions: &[DVec3], e: EdgeId| {
         let [a, b] = mesh.edge_vertices(e);
-        bound.between(a, b).unwrap_or_else(|| remesh::midpoint(mesh, positions, e))
+        bound.between(&mut places, a, b).unwrap_or_else(|| remesh::midpoint(mesh, positions, e))
     };
     let mut sizing = take_sizing(shape, 1);
     let limits = Limits { most_vertices: NODE_BUDGET, may_collapse, ..Limits::default() };

@@ -7,7 +7,7 @@ mod native {
     use ductile_mesh::remesh::{Ledger, Limits, Sizing, improve_changed, midpoint};
     use ductile_mesh::{EdgeId, Mesh, VertexId};
     use ductile_solver::workload::{self, Stream};
-    use ductile_solver::{Aim, Rings, place_on_edge, smooth};
+    use ductile_solver::{Aim, EdgePlaces, Rings, smooth};
     use glam::DVec3;
 
     /// Edge length at which the torus comes out with about 10,000 nodes.
@@ -59,12 +59,12 @@ mod native {
             Self { rings, vertices, compact, positions }
         }
 
-        fn place(&self, mesh: &Mesh, positions: &[DVec3], e: EdgeId) -> DVec3 {
+        fn place(&self, places: &mut EdgePlaces<'_>, mesh: &Mesh, positions: &[DVec3], e: EdgeId) -> DVec3 {
             let nodes =
                 mesh.edge_vertices(e).map(|v| self.compact.get(v.index()).copied().unwrap_or(u32::MAX));
             match nodes {
                 [a, b] if a != u32::MAX && b != u32::MAX && self.rings.ring(a as usize).contains(&b) => {
-                    place_on_edge(&self.rings, &self.positions, a, b)
+                    places.at(a, b)
                 }
                 _ => midpoint(mesh, positions, e),
             }
@@ -78,7 +78,8 @@ mod native {
         let mut bound = Bound::new(mesh, positions);
         for round in 0..ROUNDS {
             let mut sizing = Sizing::Uniform(if round < FINE_ROUNDS { FINER * SPACING } else { SPACING });
-            let mut place = |mesh: &Mesh, at: &[DVec3], e| bound.place(mesh, at, e);
+            let mut places = EdgePlaces::new(&bound.rings, &bound.positions);
+            let mut place = |mesh: &Mesh, at: &[DVec3], e| bound.place(&mut places, mesh, at, e);
             let ledger = (&mut ledger, 0.01);
             let edits = improve_changed(mesh, positions, &mut sizing, ledger, &limits, &mut place);
             if edits.count() > 0 {

@@ -61,5 +61,5 @@ pub use objective::{Objective, Objectives};
 pub use predictor::Predicted;
 pub use report::StepReport;
 pub use rings::{MAX_RING, RingError, Rings};
-pub use smooth::{Aim, SmoothReport, place_on_edge, smooth};
+pub use smooth::{Aim, EdgePlaces, SmoothReport, place_on_edge, smooth};
 pub use surface::{Frozen, NodeFigures, SurfaceSolver};

@@ -191,20 +191,76 @@ fn fit_at(rings: &Rings, positions: &[DVec3], node: u32, ring: &mut Ring<f64>) -
 
 /// The middle of an edge plus the mean of what both quadratics rise above their chord there.
 pub fn place_on_edge(rings: &Rings, positions: &[DVec3], a: u32, b: u32) -> DVec3 {
-    let middle = 0.5 * (positions[a as usize] + positions[b as usize]);
     let mut ring = Ring::default();
     let mut rise = |node: u32, far: u32| {
         let place = rings.ring(node as usize).iter().position(|&other| other == far)?;
         let careful = fit_at(rings, positions, node, &mut ring);
-        let (u, v) = ring.uv(place);
-        // q(t) = second(t): q(1/2) - q(1)/2 = -second/4, whatever the linear part.
-        let rise = careful.fit.quadratic(0).evaluate(u, v, 0.0) * -0.25;
-        (careful.is_fitted() && rise.is_finite()).then_some(rise)
+        rise(&careful, &ring, place)
     };
-    match (rise(a, b), rise(b, a)) {
-        (Some(one), Some(other)) => middle + 0.5 * (one + other),
-        (Some(one), None) | (None, Some(one)) => middle + one,
-        (None, None) => middle,
+    let rises = [rise(a, b), rise(b, a)];
+    above_middle(positions, [a, b], rises)
+}
+
+/// The same for many edges of one shape: every node is fitted once, when one of its edges is first asked for.
+#[derive(Debug)]
+pub struct EdgePlaces<'a> {
+    rings: &'a Rings,
+    positions: &'a [DVec3],
+    /// Where the rises of a node's spokes begin, if it has been fitted.
+    first: Vec<u32>,
+    rises: Vec<Option<DVec3>>,
+    ring: Ring<f64>,
+}
+
+const NOT_FITTED: u32 = u32::MAX;
+
+impl<'a> EdgePlaces<'a> {
+    /// For a shape as it is now.
+    ///
+    /// # Panics
+    /// When there is not one position per node.
+    #[must_use]
+    pub fn new(rings: &'a Rings, positions: &'a [DVec3]) -> Self {
+        assert_eq!(positions.len(), rings.len(), "one position per node");
+        let first = vec![NOT_FITTED; rings.len()];
+        Self { rings, positions, first, rises: Vec::new(), ring: Ring::default() }
+    }
+
+    /// As [`place_on_edge`], to the bit.
+    ///
+    /// # Panics
+    /// When there is no such node.
+    pub fn at(&mut self, a: u32, b: u32) -> DVec3 {
+        let rises = [self.rise(a, b), self.rise(b, a)];
+        above_middle(self.positions, [a, b], rises)
+    }
+
+    fn rise(&mut self, node: u32, far: u32) -> Option<DVec3> {
+        let spokes = self.rings.ring(node as usize);
+        let place = spokes.iter().position(|&other| other == far)?;
+        if self.first[node as usize] == NOT_FITTED {
+            self.first[node as usize] = u32::try_from(self.rises.len()).unwrap_or(NOT_FITTED);
+            let careful = fit_at(self.rings, self.positions, node, &mut self.ring);
+            self.rises.extend((0..spokes.len()).map(|place| rise(&careful, &self.ring, place)));
+        }
+        self.rises.get(self.first[node as usize] as usize + place).copied().flatten()
+    }
+}
+
+/// How far a node's quadratic lies above its chord to a neighbour, in the middle between them; none where it has no fit.
+fn rise(careful: &CarefulFit, ring: &Ring<f64>, place: usize) -> Option<DVec3> {
+    let (u, v) = ring.uv(place);
+    // q(t) = second(t): q(1/2) - q(1)/2 = -second/4, whatever the linear part.
+    let rise = careful.fit.quadratic(0).evaluate(u, v, 0.0) * -0.25;
+    (careful.is_fitted() && rise.is_finite()).then_some(rise)
+}
+
+fn above_middle(positions: &[DVec3], ends: [u32; 2], rises: [Option<DVec3>; 2]) -> DVec3 {
+    let middle = 0.5 * (positions[ends[0] as usize] + positions[ends[1] as usize]);
+    match rises {
+        [Some(one), Some(other)] => middle + 0.5 * (one + other),
+        [Some(one), None] | [None, Some(one)] => middle + one,
+        [None, None] => middle,
     }
 }
 

@@ -39,7 +39,7 @@ use crate::precondition::Preconditioner;
 use crate::predictor::{self, Parts, Predicted, Predictor};
 use crate::report::StepReport;
 use crate::rings::Rings;
-use crate::smooth::{self, Aim, SmoothReport};
+use crate::smooth::{self, Aim, EdgePlaces, SmoothReport};
 
 use matrix::{Matrix, Scratch};
 use sleep::Sleep;
@@ -365,6 +365,14 @@ impl SurfaceSolver {
     /// Uses the newest fit. The plain middle when the nodes are not neighbours or have no fit.
     pub fn place_on_edge(&self, positions: &[DVec3], a: u32, b: u32) -> DVec3 {
         smooth::place_on_edge(&self.rings, positions, a, b)
+    }
+
+    /// The same for many edges, each node fitted once.
+    ///
+    /// # Panics
+    /// When there is not one position per node.
+    pub fn edge_places<'a>(&'a self, positions: &'a [DVec3]) -> EdgePlaces<'a> {
+        EdgePlaces::new(&self.rings, positions)
     }
 
     /// The place of a node's fitted quadratic nearest to a given one: what a place pointed at on the facets means.

@@ -353,6 +353,8 @@ fn new_nodes_are_lifted_onto_the_surface() {
         let node = u32::try_from(node).unwrap();
         let middle = 0.5 * (shape.positions[node as usize] + shape.positions[far as usize]);
         let placed = solver.place_on_edge(&shape.positions, node, far);
+        let mut places = solver.edge_places(&shape.positions);
+        assert_eq!([places.at(node, far), places.at(far, node), places.at(node, far)], [placed; 3]);
         assert!((placed.length() - 1.0).abs() < 0.05 * (1.0 - middle.length()), "{}", placed.length());
     }
     // Nodes that are not neighbours get the plain middle.

@@ -8,7 +8,7 @@ use std::collections::VecDeque;
 use glam::DVec3;
 
 use super::diagonal::Diagonal;
-use super::potential::{self, LEAST_FALL};
+use super::potential::{self, Degrees, LEAST_FALL};
 use super::split_long::TOO_LONG;
 use super::{Edits, LEAST_CORNER, Limits, Seeds, Sizing};
 use crate::{EdgeId, Mesh, VertexId};
@@ -45,6 +45,7 @@ pub(super) fn flips_within(
     mut left: usize,
 ) -> Edits {
     let mut edits = Edits::default();
+    let mut degrees = Degrees::new(mesh);
     let mut waiting = vec![false; mesh.edge_slots()];
     let mut queue: VecDeque<EdgeId> = seeds.edges(mesh).into();
     queue.iter().for_each(|e| waiting[e.index()] = true);
@@ -56,13 +57,14 @@ pub(super) fn flips_within(
     };
     while let Some(e) = queue.pop_front() {
         waiting[e.index()] = false;
-        let Some(diagonal) = wanted(mesh, positions, sizing, e, limits) else { continue };
+        let Some(diagonal) = wanted(mesh, &mut degrees, positions, sizing, e, limits) else { continue };
         if left == 0 {
             edits.is_cut_short = true;
             break;
         }
         left -= 1;
         mesh.flip(e);
+        degrees.flipped(&diagonal);
         edits.flips += 1;
         edits.touched.extend(diagonal.ends.into_iter().chain(diagonal.opposite));
         // Four vertices have other neighbours than before, which counts at every edge of the faces around them.
@@ -79,6 +81,7 @@ pub(super) fn flips_within(
 /// The quadrilateral of `e` if flipping `e` is allowed and worth it. The cheap tests come first.
 fn wanted(
     mesh: &Mesh,
+    degrees: &mut Degrees,
     positions: &[DVec3],
     sizing: &Sizing,
     e: EdgeId,
@@ -88,11 +91,11 @@ fn wanted(
         return None;
     }
     let diagonal = Diagonal::of(mesh, e)?;
-    let is_welcome = potential::fall(mesh, positions, &diagonal) > LEAST_FALL
+    let is_welcome = potential::fall(mesh, degrees, positions, &diagonal) > LEAST_FALL
         && is_short_enough(positions, sizing, &diagonal)
         && diagonal.is_flat_enough(mesh, positions)
-        && can_spare_neighbours(mesh, positions, &diagonal)
-        && diagonal.opposite.iter().all(|&v| mesh.valence(v) < limits.most_neighbours)
+        && can_spare_neighbours(mesh, degrees, positions, &diagonal)
+        && diagonal.opposite.iter().all(|&v| degrees.of(mesh, v).0 < limits.most_neighbours)
         && mesh.can_flip(e).is_ok();
     is_welcome.then_some(diagonal)
 }
@@ -105,10 +108,15 @@ fn is_short_enough(positions: &[DVec3], sizing: &Sizing, diagonal: &Diagonal) ->
 }
 
 /// Whether the ends of the diagonal may lose a neighbour each.
-pub(super) fn can_spare_neighbours(mesh: &Mesh, positions: &[DVec3], diagonal: &Diagonal) -> bool {
+fn can_spare_neighbours(
+    mesh: &Mesh,
+    degrees: &mut Degrees,
+    positions: &[DVec3],
+    diagonal: &Diagonal,
+) -> bool {
     let is_sliver = || diagonal.corner_now(positions) < LEAST_CORNER;
-    diagonal.ends.into_iter().all(|v| match mesh.valence(v) {
-        n if mesh.is_boundary_vertex(v) => n > 3,
-        n => n > 5 || (n == 5 && is_sliver()),
+    diagonal.ends.into_iter().all(|v| match degrees.of(mesh, v) {
+        (n, false) => n > 3,
+        (n, true) => n > 5 || (n == 5 && is_sliver()),
     })
 }

@@ -30,6 +30,17 @@ impl Seeds<'_> {
         Seeds::Around(room)
     }
 
+    /// The ends of the edges to look at, in index order.
+    pub(super) fn vertices(self, mesh: &Mesh) -> Vec<VertexId> {
+        if matches!(self, Self::All) {
+            return mesh.vertices().collect();
+        }
+        let mut ends: Vec<_> = self.edges(mesh).into_iter().flat_map(|e| mesh.edge_vertices(e)).collect();
+        ends.sort_unstable();
+        ends.dedup();
+        ends
+    }
+
     /// The edges to look at, in index order.
     pub(super) fn edges(self, mesh: &Mesh) -> Vec<EdgeId> {
         let Self::Around(vertices) = self else { return mesh.edges().collect() };

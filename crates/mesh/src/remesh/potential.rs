@@ -35,9 +35,9 @@ const WORST: f64 = 1e6;
 const REGULAR: [f64; 2] = [6.0, 4.0];
 
 /// By how much flipping this diagonal would lower the potential.
-pub(super) fn fall(mesh: &Mesh, positions: &[DVec3], diagonal: &Diagonal) -> f64 {
+pub(super) fn fall(mesh: &Mesh, degrees: &mut Degrees, positions: &[DVec3], diagonal: &Diagonal) -> f64 {
     let ([a, b], [c, d]) = (diagonal.ends, diagonal.opposite);
-    let surplus = |v| surplus(mesh, v);
+    let mut surplus = |v| surplus(degrees.of(mesh, v));
     // (x - 1)² - x² = 1 - 2x for the ends, (x + 1)² - x² = 1 + 2x for the opposite vertices.
     let rise_of_squares = 4.0 + 2.0 * (surplus(c) + surplus(d) - surplus(a) - surplus(b));
     fall_of_cotangents(diagonal.points(positions)) - rise_of_squares
@@ -56,12 +56,42 @@ pub(super) fn total(mesh: &Mesh, positions: &[DVec3]) -> f64 {
         cotangents(a, b, c)
     };
     let triangles: f64 = mesh.faces().map(of_face).sum();
-    triangles + mesh.vertices().map(|v| surplus(mesh, v)).map(|x| x * x).sum::<f64>()
+    triangles + mesh.vertices().map(|v| surplus(mesh.degree(v))).map(|x| x * x).sum::<f64>()
 }
 
-fn surplus(mesh: &Mesh, v: VertexId) -> f64 {
-    let wanted = REGULAR[usize::from(mesh.is_boundary_vertex(v))];
-    f64::from(u32::try_from(mesh.valence(v)).unwrap_or(u32::MAX)) - wanted
+/// By how many a vertex has more neighbours than it wants, given their number and whether they close around it.
+fn surplus((valence, is_closed): (usize, bool)) -> f64 {
+    let wanted = REGULAR[usize::from(!is_closed)];
+    f64::from(u32::try_from(valence).unwrap_or(u32::MAX)) - wanted
+}
+
+/// Numbers of neighbours: counted when they are first asked for, since each is asked for at every edge around, and kept
+/// right from flip to flip.
+pub(super) struct Degrees {
+    /// By vertex slot; no neighbours for those not counted yet.
+    counted: Vec<(usize, bool)>,
+}
+
+impl Degrees {
+    pub(super) fn new(mesh: &Mesh) -> Self {
+        Self { counted: vec![(0, false); mesh.vertex_slots()] }
+    }
+
+    /// How many neighbours a vertex has, and whether they close around it.
+    pub(super) fn of(&mut self, mesh: &Mesh, v: VertexId) -> (usize, bool) {
+        let counted = &mut self.counted[v.index()];
+        if counted.0 == 0 {
+            *counted = mesh.degree(v);
+        }
+        *counted
+    }
+
+    /// A flip was made. Its four vertices have been counted, or will be.
+    pub(super) fn flipped(&mut self, diagonal: &Diagonal) {
+        for v in diagonal.ends.into_iter().chain(diagonal.opposite) {
+            self.counted[v.index()].0 = 0;
+        }
+    }
 }
 
 /// The sum of a triangle's cotangents, at most [`WORST`].

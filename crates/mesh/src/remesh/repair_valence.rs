@@ -26,9 +26,7 @@ pub fn repair_valence(
     limits: &Limits<'_>,
 ) -> Edits {
     let mut edits = Edits::default();
-    let mut stack: Vec<_> = seeds.edges(mesh).into_iter().flat_map(|e| mesh.edge_vertices(e)).collect();
-    stack.sort_unstable();
-    stack.dedup();
+    let mut stack = seeds.vertices(mesh);
     stack.retain(|&v| is_poor(mesh, v));
     stack.reverse();
     let mut ring = Vec::new();
@@ -58,7 +56,8 @@ pub fn repair_valence(
 }
 
 fn is_poor(mesh: &Mesh, v: VertexId) -> bool {
-    !mesh.is_boundary_vertex(v) && mesh.valence(v) < ENOUGH
+    let (valence, is_closed) = mesh.degree(v);
+    is_closed && valence < ENOUGH
 }
 
 /// The edge across from `v` whose flip towards `v` makes the widest corners, if one may be flipped. An edge

@@ -35,7 +35,10 @@ fn nothing_to_flip(mesh: &Mesh, positions: &[DVec3]) -> bool {
         let d = diagonal::Diagonal::of(mesh, e).unwrap();
         let degrees =
             d.ends.iter().all(|&v| mesh.valence(v) > if mesh.is_boundary_vertex(v) { 3 } else { 5 });
-        !degrees || !d.is_flat_enough(mesh, positions) || potential::fall(mesh, positions, &d) <= 0.1
+        !degrees || !d.is_flat_enough(mesh, positions) || {
+            let mut degrees = potential::Degrees::new(mesh);
+            potential::fall(mesh, &mut degrees, positions, &d) <= 0.1
+        }
     })
 }
 
