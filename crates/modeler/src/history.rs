@@ -127,6 +127,7 @@ mod tests {
             embeddings: Vec::new(),
             pins: Vec::new(),
             spacing: 1.0,
+            wanted: Vec::new(),
             revision: 1,
         };
         let mut model = Model::default();

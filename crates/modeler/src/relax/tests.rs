@@ -75,6 +75,7 @@ fn crowded() -> Model {
         embeddings: Vec::new(),
         pins: Vec::new(),
         spacing: 0.3,
+        wanted: Vec::new(),
         revision: 1,
     };
     let mut model = Model::default();
