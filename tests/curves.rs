@@ -4,7 +4,7 @@
 
 use acceptance::Bench;
 use ductile_spec::{
-    CurveId, Edit, Example, GrabTarget, Objective, ObjectiveOf, PointId, Request, Through, to_text,
+    CurveId, Edit, Example, GrabTarget, Handle, Objective, ObjectiveOf, PointId, Request, Through, to_text,
 };
 use glam::DVec3;
 
@@ -109,6 +109,56 @@ fn tangents_that_are_none_are_refused_and_change_nothing() {
     }
     assert_eq!(bench.document, before);
     assert_eq!(nodes(&bench), places);
+}
+
+#[test]
+fn a_handle_turns_a_tangent_in_one_act_and_is_put_back_by_cancel() {
+    let mut bench = Bench::with(Example::Disc);
+    bench.rest(300);
+    let point = PointId(1);
+    bench.edit(Edit::Tangent { curve: CURVE, point, direction: Some(DVec3::new(-1.0, 1.0, 0.2)) });
+    bench.rest(300);
+    let (before, places) = (bench.document.clone(), nodes(&bench));
+    let at = bench.document().points[&point];
+    let target = GrabTarget::Handle(Handle::Tangent { curve: CURVE, point });
+    let turn = |bench: &mut Bench, steps: u32| {
+        let grabbed = bench.accept(Request::Grab(target)).grabbed.unwrap();
+        assert_eq!((grabbed.point, grabbed.at), (point, at));
+        for step in 1..=steps {
+            bench.step(Some(at + DVec3::new(-1.0, 1.0, 0.2 + 0.1 * f64::from(step)) * 0.3));
+        }
+        // What says no direction is passed over.
+        for nothing in [DVec3::NAN, at, at + DVec3::X * 1e-12] {
+            bench.step(Some(nothing));
+        }
+    };
+    turn(&mut bench, 12);
+    let wanted = DVec3::new(-1.0, 1.0, 1.4);
+    for _ in 0..30 {
+        bench.step(None);
+    }
+    assert!(leaving(&bench, point).angle_between(wanted) < 0.02, "the curve follows the hand");
+    assert_eq!(bench.document, before, "a drag in progress is not committed");
+    bench.accept(Request::Cancel);
+    assert_eq!((bench.modeler.model().document.as_ref(), nodes(&bench)), (&bench.document(), places.clone()));
+    turn(&mut bench, 12);
+    let committed = bench.accept(Request::Drop).committed.unwrap();
+    assert_eq!(committed.act, "Tangent");
+    bench.rest(300);
+    let kept = bench.document().curves[&CURVE].tangents[&point];
+    assert!(kept.angle_between(wanted) < 1e-3 && (kept.length() - 1.0).abs() < 1e-3, "{kept}");
+    assert!(leaving(&bench, point).angle_between(wanted) < 0.02);
+    // The whole drag is one act.
+    bench.accept(Request::Undo);
+    assert_eq!((bench.document.clone(), nodes(&bench)), (before.clone(), places));
+    // A press without a turn is none.
+    turn(&mut bench, 0);
+    assert!(bench.accept(Request::Drop).committed.is_none());
+    assert_eq!(bench.document, before);
+    for handle in [(CurveId(7), point), (CURVE, PointId(77))] {
+        let target = GrabTarget::Handle(Handle::Tangent { curve: handle.0, point: handle.1 });
+        assert!(bench.send(Request::Grab(target)).refused.is_some());
+    }
 }
 
 /// Largest distance of a curve's samples from those of a finer one.

@@ -1,5 +1,6 @@
 //! A drag: from taking hold of something to letting it go. A whole drag is one act.
 //!
+//! What is held is a control point, or a direction at one (a handle), which the hand turns about it.
 //! While it lasts, the document's position of the held point follows the hand, and the shapes follow the
 //! document as they relax. A hand can ask for anything: what is not a number is ignored, what is far is
 //! cut to a reach, and in the end the position is rounded to what a document keeps.
@@ -8,7 +9,7 @@ use crate::error::ModelError;
 use crate::model::Model;
 use crate::operation::{insert, kept_position, pin};
 use crate::relax::Relaxer;
-use ductile_spec::{GrabTarget, MAX_COORDINATE, PointId};
+use ductile_spec::{GrabTarget, Handle, MAX_COORDINATE, PointId};
 use glam::DVec3;
 
 /// How far one drag can reach, in radii of the model at its beginning.
@@ -20,14 +21,20 @@ const WRECK_RISE: f64 = 60.0;
 /// A shape whose point came home is not the one of before if its energy differs by more than this part: it is caught in
 /// a fold, or only its mesh has become another one.
 const LOST: f64 = 1e-6;
+/// Digits of a direction that a document keeps after a drag: a unit vector is rounded to so many parts.
+const DIRECTION_PARTS: f64 = 1e4;
+/// Part of the reach by which a hand must be away from a point to say a direction.
+const LEAST_ARM: f64 = 1e-6;
 /// Steps that a shape at home has to find back by itself, and steps between two returns to the shape at the beginning of the drag.
 const PATIENCE: u32 = 30;
 
 /// A drag in progress.
 #[derive(Clone, Debug)]
 pub(crate) struct Grab {
-    /// The control point that is held.
+    /// The control point that is held, or at which something is.
     pub(crate) point: PointId,
+    /// The direction there that is held, if it is not the point itself.
+    handle: Option<Handle>,
     /// Whether the grab made it.
     pub(crate) is_new: bool,
     /// Whether the hand has moved it yet.
@@ -59,13 +66,21 @@ impl Grab {
             GrabTarget::Point(point) => model.point(point).map(|_| point)?,
             GrabTarget::Curve { curve, at } => insert(model, curve, at)?,
             GrabTarget::Surface { surface, at } => pin(model, relaxer, surface, at)?,
+            GrabTarget::Handle(Handle::Tangent { curve, point }) => {
+                let through = model.document.curves.get(&curve).map(|curve| &curve.through);
+                let is_on = through.ok_or(ModelError::NoCurve(curve))?.contains(&point);
+                model.point(point).ok().filter(|_| is_on).ok_or(ModelError::NotOnCurve { curve, point })?;
+                point
+            }
         };
-        let is_new = !matches!(target, GrabTarget::Point(_));
+        let is_new = matches!(target, GrabTarget::Curve { .. } | GrabTarget::Surface { .. });
+        let handle = if let GrabTarget::Handle(handle) = target { Some(handle) } else { None };
         let reach = REACH * if radius > 0.0 { radius } else { 1.0 };
         let home = model.clone();
         let steps_since_return = PATIENCE;
         Ok(Self {
             point,
+            handle,
             is_new,
             has_moved: false,
             before,
@@ -101,9 +116,12 @@ impl Grab {
         true
     }
 
-    /// Whether the point is back where the drag took hold of it.
+    /// Whether what is held is back where the drag took hold of it.
     fn is_home(&self, model: &Model) -> bool {
-        let at = |model: &Model| model.document.points.get(&self.point).copied();
+        let at = |model: &Model| match self.handle {
+            None => model.document.points.get(&self.point).copied(),
+            Some(handle) => direction(model, handle),
+        };
         self.has_moved && at(model) == at(&self.home)
     }
 
@@ -120,6 +138,9 @@ impl Grab {
         } else {
             to
         };
+        if let Some(handle) = self.handle {
+            return self.turn(model, handle, to);
+        }
         let to = to.clamp(DVec3::splat(-MAX_COORDINATE), DVec3::splat(MAX_COORDINATE));
         let at = model.document_mut().points.get_mut(&self.point)?;
         let moved = (to - *at).length();
@@ -131,12 +152,92 @@ impl Grab {
         Some(moved)
     }
 
+    /// Turns the direction that is held towards the hand. Returns how far that would move something at a model's radius.
+    fn turn(&mut self, model: &mut Model, handle: Handle, to: DVec3) -> Option<f64> {
+        let arm = to - model.document.points.get(&self.point)?;
+        let unit = arm.try_normalize().filter(|_| arm.length() > LEAST_ARM * self.reach)?;
+        let before = direction(model, handle).map_or(DVec3::ZERO, DVec3::normalize_or_zero);
+        let moved = (unit - before).length() * self.reach / REACH;
+        if moved > 0.0 {
+            point_to(model, handle, unit);
+            self.has_moved = true;
+            (self.still, self.is_home_again) = (0, false);
+        }
+        Some(moved)
+    }
+
     /// Lets go: the position becomes one that a document keeps. Returns the name of the act.
     pub(crate) fn finish(&self, model: &mut Model) -> Result<&'static str, ModelError> {
+        if let Some(handle) = self.handle {
+            let unit = direction(model, handle).unwrap_or(DVec3::X);
+            point_to(model, handle, (unit * DIRECTION_PARTS).round() / DIRECTION_PARTS);
+            model.document.validate()?;
+            return Ok("Tangent");
+        }
         let at = model.point(self.point)?;
         let kept = kept_position(&self.before, at)?;
         model.document_mut().points.insert(self.point, kept);
         model.check_extents()?;
         Ok(if self.is_new { "Control point" } else { "Move" })
+    }
+}
+
+/// The direction that a document prescribes, as far as it does.
+fn direction(model: &Model, handle: Handle) -> Option<DVec3> {
+    let Handle::Tangent { curve, point } = handle;
+    model.document.curves.get(&curve)?.tangents.get(&point).copied()
+}
+
+/// Prescribes a direction.
+fn point_to(model: &mut Model, handle: Handle, direction: DVec3) {
+    let Handle::Tangent { curve, point } = handle;
+    if let Some(curve) = model.document_mut().curves.get_mut(&curve) {
+        curve.tangents.insert(point, direction);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::example::example;
+    use crate::shape::edit;
+    use ductile_spec::{Example, SurfaceId};
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    fn places(model: &Model) -> Vec<DVec3> {
+        model.surfaces[&SurfaceId(1)].positions.clone()
+    }
+
+    /// Something that a drag made of the disc.
+    fn crumple(model: &mut Model) {
+        let shape = edit(model.surfaces.get_mut(&SurfaceId(1)).unwrap());
+        shape.positions.iter_mut().for_each(|at| at.z += 1.0);
+    }
+
+    #[test]
+    fn a_wreck_returns_to_the_beginning_of_its_drag_at_most_every_thirty_steps_but_always_at_its_end() {
+        let mut model = Model::from_document(example(Example::Disc)).unwrap();
+        let mut relaxer = Relaxer::default();
+        relaxer.bind(&model);
+        let mut grab = Grab::begin(&mut model, &relaxer, GrabTarget::Point(PointId(1))).unwrap();
+        let home = places(&model);
+        let away = model.point(PointId(1)).unwrap() + DVec3::Z;
+        assert_eq!(grab.follow(&mut model, away), Some(1.0));
+        let (fair, wreck) = (WRECK_RISE - 1.0, WRECK_FACTOR * relaxer.energy() + WRECK_RISE + 1.0);
+        crumple(&mut model);
+        assert!(!grab.rescue(&mut model, fair, false) && !grab.rescue(&mut model, fair, true));
+        assert_ne!(places(&model), home);
+        for energy in [wreck, f64::NAN] {
+            assert!(grab.rescue(&mut model, energy, false));
+            assert_eq!(places(&model), home);
+            crumple(&mut model);
+            // It is given time to find a shape on the way to the hand.
+            assert!((1..PATIENCE).all(|_| !grab.rescue(&mut model, energy, false)));
+        }
+        assert!(grab.rescue(&mut model, wreck, true));
+        assert_eq!(places(&model), home);
+        // The hand is where it was: the document follows it, only the shapes went back.
+        assert_eq!(model.point(PointId(1)), Ok(away));
     }
 }

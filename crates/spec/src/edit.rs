@@ -195,4 +195,18 @@ pub enum GrabTarget {
         /// Where, roughly.
         at: DVec3,
     },
+    /// A direction at a control point. Where the hand is, less the point's place, is the direction.
+    Handle(Handle),
+}
+
+/// A direction that a drag can turn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Handle {
+    /// That of a curve at one of its control points; one that is free is prescribed from the first move on.
+    Tangent {
+        /// Which curve.
+        curve: CurveId,
+        /// Where on it.
+        point: PointId,
+    },
 }

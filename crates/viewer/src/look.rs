@@ -64,6 +64,8 @@ pub struct Highlight {
     pub ghost: Vec<Vec3>,
     /// A polyline that a tool would make.
     pub ghost_line: Vec<Vec3>,
+    /// Handles, from the point that each stands on to its end, and whether the pointer is on it.
+    pub arms: Vec<(Vec3, Vec3, bool)>,
     /// Surfaces that a tool is about to touch: tinted with the accent.
     pub tinted: Vec<SurfaceId>,
     /// Where new points go; the grid lies in it. The ground (z = 0) where there is none.

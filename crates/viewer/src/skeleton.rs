@@ -19,6 +19,10 @@ const BOUNDARY: f32 = 1.6;
 const THICKER: f32 = 0.9;
 /// Radius of a control point.
 const POINT: f32 = 4.6;
+/// Radius of the end of a handle.
+const HANDLE: f32 = 5.2;
+/// Opacity of a handle where a surface hides it.
+const HANDLE_HIDDEN: f32 = 0.75;
 /// Width of the thin outline of a point.
 const HALO: f32 = 1.4;
 /// Width of the outline of what is selected.
@@ -123,6 +127,24 @@ pub(crate) fn add_highlight(marks: &mut Marks, camera: &Camera, highlight: &High
     for at in &highlight.ghost {
         marks.add_dot(*at, ghost(theme));
     }
+    for (foot, end, is_hovered) in &highlight.arms {
+        add_arm(marks, *foot, *end, *is_hovered, theme);
+    }
+}
+
+/// A handle: a line from its point, and a dot to take hold of. It is as plain before a surface as behind one.
+fn add_arm(marks: &mut Marks, foot: Vec3, end: Vec3, is_hovered: bool, theme: &Theme) {
+    let thicker = if is_hovered { THICKER } else { 0.0 };
+    let style = Style {
+        fill: theme.handle,
+        outline: theme.halo,
+        half_width: CURVE + thicker,
+        outline_width: 0.0,
+        hidden: HANDLE_HIDDEN,
+        flags: 0,
+    };
+    marks.add_polyline([foot, end].into_iter(), false, style);
+    marks.add_dot(end, Style { half_width: HANDLE + thicker, outline_width: HALO, ..style });
 }
 
 /// A point that is not there yet.
@@ -212,6 +234,18 @@ mod tests {
         let held = Highlight { held: Some(PointId(3)), ..Highlight::default() };
         assert_eq!(point_style(PointId(3), &held, &theme).outline, theme.selected);
         assert_eq!(point_style(PointId(2), &held, &theme).outline, theme.halo);
+    }
+
+    #[test]
+    fn a_handle_is_a_green_line_with_a_dot_at_its_end() {
+        let (mut marks, camera, theme) = (Marks::default(), Camera::default(), Theme::new(false));
+        let arms = vec![(Vec3::ZERO, Vec3::X, false), (Vec3::ZERO, Vec3::Y, true)];
+        add_highlight(&mut marks, &camera, &Highlight { arms, ..Highlight::default() }, &theme);
+        assert_eq!((marks.segments.len(), marks.dots.len()), (2, 2));
+        let at = marks.dots[1].at as usize;
+        assert_eq!(Vec3::from_slice(&marks.floats[at..at + 3]), Vec3::Y);
+        let [plain, hovered] = [marks.dot_styles[0], marks.dot_styles[1]];
+        assert!(plain.fill == theme.handle && hovered.half_width > plain.half_width);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The colours of the picture, light and dark.
 //!
 //! Colours of meaning come from the colour-blind-safe set of Okabe and Ito (2008) and are the same in every
-//! look: control points orange, control curves blue, boundaries vermilion, selection yellow; only their
+//! look: control points orange, control curves blue, boundaries vermilion, selection yellow, handles green; only their
 //! lightness follows the theme. The background continues the page's own.
 
 use glam::Vec4;
@@ -27,6 +27,7 @@ pub(crate) struct Theme {
     pub(crate) curve: Vec4,
     pub(crate) boundary: Vec4,
     pub(crate) point: Vec4,
+    pub(crate) handle: Vec4,
     /// Thin outline that keeps marks apart from what is behind them.
     pub(crate) halo: Vec4,
     pub(crate) selected: Vec4,
@@ -56,6 +57,7 @@ impl Theme {
             curve: display(0x00_6b_c2, 1.0),
             boundary: display(0xd5_5e_00, 1.0),
             point: display(0xf0_9a_00, 1.0),
+            handle: display(0x06_8a_60, 1.0),
             halo: display(0xff_ff_ff, 0.95),
             selected: display(0xff_d6_00, 1.0),
             accent: display(0x1f_62_c9, 1.0),
@@ -78,6 +80,7 @@ impl Theme {
             curve: display(0x4f_b0_f0, 1.0),
             boundary: display(0xff_78_30, 1.0),
             point: display(0xff_b0_20, 1.0),
+            handle: display(0x1f_c7_98, 1.0),
             halo: display(0x14_17_1b, 0.90),
             selected: display(0xff_e2_3d, 1.0),
             accent: display(0x78_ae_f8, 1.0),

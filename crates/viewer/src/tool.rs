@@ -9,11 +9,13 @@ use glam::Vec3;
 
 mod drag;
 mod ghost;
+mod handle;
 #[cfg(test)]
 mod tests;
 
 pub use drag::{Arrow, Axis, Drag, grid_step, nudge_direction, work_plane};
 pub use ghost::ghost_line;
+pub use handle::{Arm, handles_at};
 
 /// The tools, in the order of the bar.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

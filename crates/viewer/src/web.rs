@@ -10,6 +10,7 @@ mod canvas;
 mod commands;
 #[cfg(target_arch = "wasm32")]
 mod density;
+#[cfg(target_arch = "wasm32")]
 mod dom;
 #[cfg(target_arch = "wasm32")]
 mod fields;

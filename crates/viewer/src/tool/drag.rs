@@ -66,6 +66,11 @@ impl Drag {
         Self { target, anchor, origin: anchor.as_dvec3(), normal, press, lock: None }
     }
 
+    /// Takes hold of a place as it is.
+    pub(super) fn of_place(target: GrabTarget, anchor: Vec3, press: Vec2) -> Self {
+        Self { target, anchor, origin: anchor.as_dvec3(), normal: None, press, lock: None }
+    }
+
     /// What it takes hold of.
     #[must_use]
     pub fn target(&self) -> GrabTarget {
@@ -77,9 +82,9 @@ impl Drag {
         self.normal = self.normal.or_else(|| normal.and_then(Vec3::try_normalize));
     }
 
-    /// The modeler says where exactly the held point is.
+    /// The modeler says where exactly the held point is. (A handle's end is where it was taken hold of.)
     pub fn set_origin(&mut self, at: DVec3) {
-        if at.is_finite() {
+        if at.is_finite() && !matches!(self.target, GrabTarget::Handle(_)) {
             self.origin = at;
         }
     }

@@ -3,9 +3,11 @@
 use super::dom;
 use super::page::Page;
 use crate::input::{Button, Gesture, Modifiers, Pointer, Recogniser};
-use crate::tool::{Act, Aim, Drag, Selection, Surroundings, ToolKind, entry, grid_step, work_plane};
+use crate::tool::{
+    Act, Aim, Arm, Drag, Selection, Surroundings, ToolKind, entry, grid_step, handles_at, work_plane,
+};
 use crate::{Hit, Pose, View, Wanted, pick, pick_among};
-use ductile_spec::{Edit, PointRole, Request};
+use ductile_spec::{Edit, GrabTarget, PointRole, Request};
 use glam::{Vec2, Vec3};
 
 /// How near the pointer must come to a point or a curve, in CSS pixels: a mouse, a fingertip.
@@ -24,6 +26,7 @@ pub(crate) struct Hand {
     pub(crate) cursor: Option<Vec2>,
     pub(crate) modifiers: Modifiers,
     pub(crate) hover: Option<Hit>,
+    pub(crate) hover_arm: Option<Arm>,
     pub(crate) hover_view: Option<View>,
     pub(crate) hover_is_stale: bool,
     pub(crate) is_finger: bool,
@@ -48,7 +51,8 @@ impl Page {
         self.hand.cursor = Some(pointer.at);
         self.hand.modifiers = pointer.modifiers;
         let on_triad = self.shows_triad() && self.camera.triad_hit(pointer.at).is_some();
-        let holds = self.tools.holds() && !on_triad && self.thing_at(pointer.at).is_some();
+        let is_thing = || self.arm_at(pointer.at).is_some() || self.thing_at(pointer.at).is_some();
+        let holds = self.tools.holds() && !on_triad && is_thing();
         let gestures = self.hand.recogniser.down(pointer, button, holds);
         self.run(gestures);
     }
@@ -181,6 +185,10 @@ impl Page {
             self.fly_to(pose);
             return;
         }
+        if self.tools.holds() && self.arm_at(at).is_some() {
+            // A handle is there to be dragged; what lies below it is not meant.
+            return;
+        }
         let hit = self.thing_at(at);
         self.picked = match hit {
             Some(Hit::Surface { id, at, .. }) => Some((id, at)),
@@ -213,7 +221,36 @@ impl Page {
         }
     }
 
+    /// The handles of the selected point; the one that is held ends where the hand is.
+    pub(crate) fn arms(&self) -> Vec<Arm> {
+        let Selection::Point(point) = self.selection else { return Vec::new() };
+        let Some(foot) = self.scene.point(point).filter(|_| self.settings.look.skeleton) else {
+            return Vec::new();
+        };
+        let arm = |(handle, direction)| {
+            let arm = Arm::new(handle, foot, direction, &self.camera);
+            let held = self.hand.drag.filter(|drag| drag.target() == GrabTarget::Handle(handle));
+            let place = held.zip(self.hand.cursor).and_then(|(drag, cursor)| {
+                drag.place(&self.camera, cursor, self.hand.modifiers, self.grid())
+            });
+            Arm { end: place.map_or(arm.end, |place| place.as_vec3()), ..arm }
+        };
+        handles_at(&self.document, point).into_iter().map(arm).collect()
+    }
+
+    /// The handle that a press at a place would take.
+    pub(crate) fn arm_at(&self, at: Vec2) -> Option<Arm> {
+        Arm::nearest(&self.arms(), &self.camera, at, self.hand.reach())
+    }
+
     fn grab(&mut self, at: Vec2) {
+        if let Some(arm) = self.arm_at(at) {
+            let drag = arm.drag(at);
+            self.schedule.grab(drag.target());
+            self.hand.drag = Some(drag);
+            self.refresh();
+            return;
+        }
         let Some(hit) = self.thing_at(at) else { return };
         let mut drag = Drag::begin(&hit, at);
         let below = Wanted { points: false, curves: false, ..Wanted::ALL };
@@ -310,12 +347,16 @@ impl Page {
         }
         self.hand.hover = None;
         self.hand.hover_view = None;
+        self.hand.hover_arm = None;
         let Some(at) = self.hand.cursor else { return };
         if self.hand.recogniser.is_busy() || self.hand.is_finger {
             return;
         }
         self.hand.hover_view = self.camera.triad_hit(at).filter(|_| self.shows_triad());
         if self.hand.hover_view.is_none() {
+            self.hand.hover_arm = self.arm_at(at).filter(|_| self.tools.holds());
+        }
+        if self.hand.hover_view.is_none() && self.hand.hover_arm.is_none() {
             self.hand.hover = self.thing_at(at);
         }
     }

@@ -50,6 +50,8 @@ impl Page {
         put(&out, "surfaces", plain(&self.scene.structure.surfaces));
         put(&out, "curves", self.described_curves());
         put(&out, "points", self.described_points());
+        let arms = self.arms().into_iter().map(|arm| self.on_screen(arm.end));
+        put(&out, "handles", arms.collect::<Array>());
         put(&out, "camera", self.described_camera());
         put(&out, "selection", self.described_selection());
         put(&out, "hover", self.described_hover());

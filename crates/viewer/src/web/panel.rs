@@ -92,8 +92,9 @@ impl Page {
         let canvas = dom::element("view");
         let held = self.hand.drag.is_some();
         let shapes = self.tools.kind() == ToolKind::Shape;
+        let is_over = self.hand.hover.is_some() || self.hand.hover_arm.is_some();
         dom::class(&canvas, "held", held);
-        dom::class(&canvas, "over", shapes && !held && self.hand.hover.is_some());
+        dom::class(&canvas, "over", shapes && !held && is_over);
         dom::class(&canvas, "place", !shapes);
     }
 

@@ -6,8 +6,9 @@
 use super::dom;
 use super::page::{MOST_RETRIES, Page, RETRY_MILLISECONDS, act};
 use crate::limit::Limit;
-use crate::tool::{Selection, ToolKind, ghost_line, work_plane};
+use crate::tool::{Arm, Selection, ToolKind, ghost_line, work_plane};
 use crate::{GpuError, Highlight, Hit, Look, Renderer};
+use ductile_spec::GrabTarget;
 use glam::Vec3;
 use wasm_bindgen::closure::Closure;
 use wasm_bindgen::{JsCast, JsValue};
@@ -268,6 +269,14 @@ impl Page {
             Selection::Curve(id) => mark.selected_curve = Some(id),
             Selection::Surface(id) => mark.tinted.push(id),
             Selection::None => {}
+        }
+        if self.tools.holds() {
+            let held = self.hand.drag.map(|drag| drag.target());
+            let is_hot = |arm: &Arm| {
+                self.hand.hover_arm.is_some_and(|over| over.handle == arm.handle)
+                    || held == Some(GrabTarget::Handle(arm.handle))
+            };
+            mark.arms = self.arms().iter().map(|arm| (arm.foot, arm.end, is_hot(arm))).collect();
         }
         match self.tools.kind() {
             ToolKind::Curve => self.mark_curve(&mut mark),
