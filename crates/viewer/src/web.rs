@@ -30,6 +30,7 @@ mod link;
 mod menu;
 #[cfg(target_arch = "wasm32")]
 mod notice;
+#[cfg(target_arch = "wasm32")]
 mod objectives;
 #[cfg(target_arch = "wasm32")]
 mod opening;
