@@ -1,0 +1,36 @@
+//! How much memory the core takes in a browser: all of it, from the first page of this program on.
+//!
+//! A program's memory in WebAssembly never shrinks, so its size at the end is the most that was ever in use.
+#![cfg(target_arch = "wasm32")]
+#![allow(clippy::unwrap_used, reason = "a failing test should stop where it fails")]
+
+use acceptance::Bench;
+use ductile_spec::{Edit, Example, GrabTarget, Request};
+use glam::DVec3;
+use wasm_bindgen_test::console_log;
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+const MEGABYTE: usize = 1 << 20;
+/// Bytes of a page of WebAssembly memory.
+const PAGE: usize = 65_536;
+
+#[test]
+fn a_model_of_ten_thousand_nodes_is_dragged_and_undone_within_48_megabytes() {
+    let mut bench = Bench::with(Example::RaisedDisc);
+    bench.edit(Edit::Spacing { spacing: Some(0.024) });
+    bench.rest(400);
+    let raised = *bench.document().points.iter().find(|(_, at)| at.z > 0.1).unwrap().0;
+    let home = bench.document().points[&raised];
+    bench.accept(Request::Grab(GrabTarget::Point(raised)));
+    for step in 0..30 {
+        bench.step(Some(home + DVec3::Z * 0.02 * f64::from(step)));
+    }
+    bench.accept(Request::Drop);
+    bench.rest(400);
+    bench.accept(Request::Undo);
+    let nodes = bench.step(None).frame.figures.nodes;
+    let used = core::arch::wasm32::memory_size(0) * PAGE;
+    console_log!("{nodes} nodes: {:.1} MB", used as f64 / MEGABYTE as f64);
+    assert!(nodes > 9_000, "{nodes}");
+    assert!(used <= 48 * MEGABYTE, "{used} bytes");
+}
