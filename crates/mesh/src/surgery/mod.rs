@@ -1,6 +1,6 @@
-//! Mesh surgery: splits, flips, collapses and deletions, none of which can change the surface's kind.
+//! Mesh surgery. Splits, flips, collapses and deletions cannot change the surface's kind; cuts and glue do, as they say.
 //!
-//! These are Alexander moves and their compositions (Welch 1995, §4.2.3). Whatever their order, the Euler
+//! The former are Alexander moves and their compositions (Welch 1995, §4.2.3). Whatever their order, the Euler
 //! characteristic, the number of boundary loops and orientability stay the same, control points stay
 //! alive, and control curves stay connected. Nothing here looks at positions.
 //!
@@ -8,9 +8,14 @@
 //! Elements that survive keep their handles. New faces are wound like the ones they replace.
 
 mod collapse;
+mod cut;
 mod delete;
 mod flip;
+mod glue;
 mod split;
+
+pub use cut::{Cut, CutError};
+pub use glue::{GlueError, Seam};
 
 use thiserror::Error;
 
@@ -104,5 +109,7 @@ impl Mesh {
     }
 }
 
+#[cfg(test)]
+mod surface_tests;
 #[cfg(test)]
 mod tests;
