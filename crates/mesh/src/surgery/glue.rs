@@ -224,3 +224,6 @@ impl Mesh {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests;

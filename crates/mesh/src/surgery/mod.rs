@@ -110,6 +110,4 @@ impl Mesh {
 }
 
 #[cfg(test)]
-mod surface_tests;
-#[cfg(test)]
 mod tests;

@@ -2,11 +2,12 @@
 
 use proptest::prelude::*;
 
-use super::*;
 use crate::family::{draw_curve, family};
 use crate::measure::{boundary_loops, euler_characteristic};
 use crate::property_test::cases;
-use crate::{Cut, CutError, GlueError, Seam, SourceTag, primitive, summary, validate};
+use crate::{
+    Cut, CutError, EdgeId, GlueError, Mesh, Seam, SourceTag, VertexId, primitive, summary, validate,
+};
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
