@@ -2,6 +2,7 @@
 
 use crate::error::ModelError;
 use crate::model::Model;
+use crate::plane::Planes;
 use crate::region::{self, Choice, solver_objective};
 use crate::shape::{CurveShape, SurfaceShape};
 use ductile_mesh::VertexId;
@@ -111,6 +112,24 @@ impl BoundSurface {
         let is_taken = self.solver.set_objectives(region::objectives(shape, &choice)).is_ok();
         self.choice = choice;
         is_new && is_taken
+    }
+
+    /// Takes over the tangent planes that the document prescribes; returns whether they are noticeably others than before.
+    pub(crate) fn prescribe(&mut self, model: &Model, id: SurfaceId, shape: &SurfaceShape) -> bool {
+        let surface = model.document.surfaces.get(&id);
+        let has_planes = surface.is_some_and(|s| !(s.normals.is_empty() && s.ribbons.is_empty()));
+        if has_planes && self.solver.energy().is_nan() {
+            // Which sense a normal is meant in, the surface says as it is.
+            self.solver.fit_all(&self.positions);
+        }
+        let planes = if has_planes { self.planes(model, shape).of(id) } else { Vec::new() };
+        self.solver.set_normals(&planes).unwrap_or(false)
+    }
+
+    /// How to find what is prescribed on this mesh.
+    pub(crate) fn planes<'a>(&'a self, model: &'a Model, shape: &'a SurfaceShape) -> Planes<'a> {
+        let (rings, normals) = (self.solver.rings(), self.solver.normals());
+        Planes { model, shape, rings, compact: &self.compact, normals }
     }
 
     /// The vertex of each compact node.

@@ -75,6 +75,53 @@ pub enum ModelError {
         /// Why it is needed.
         why: &'static str,
     },
+    /// Of the normal nothing is left across the curve.
+    #[error(
+        "{surface}: at {point} the normal runs along {curve}; a surface that follows a curve lies along it"
+    )]
+    NormalAlongCurve {
+        /// The surface.
+        surface: SurfaceId,
+        /// The curve.
+        curve: CurveId,
+        /// The point.
+        point: PointId,
+    },
+    /// The surface cannot leave a curve along the curve.
+    #[error("{surface}: at {point} the ribbon runs along {curve}; it must lead away from it")]
+    CrossAlongCurve {
+        /// The surface.
+        surface: SurfaceId,
+        /// The curve.
+        curve: CurveId,
+        /// The point.
+        point: PointId,
+    },
+    /// Two curves of the surface cross there.
+    #[error("{surface}: curves cross at {point}, so their tangents are its plane there; turn those")]
+    PlaneGiven {
+        /// The surface.
+        surface: SurfaceId,
+        /// The point.
+        point: PointId,
+    },
+    /// The curve does not lie in the surface.
+    #[error("{curve} does not lie in {surface}")]
+    NotInSurface {
+        /// The surface.
+        surface: SurfaceId,
+        /// The curve.
+        curve: CurveId,
+    },
+    /// An angle from the plane of a curve was asked for, but the curve is straight.
+    #[error("{0} is straight and lies in many planes: give directions instead of an angle")]
+    NoPlane(CurveId),
+    /// An angle is no number, or more than half a turn.
+    #[error("an angle must be a number between -180° and 180°")]
+    BadAngle,
+    /// A soap film has no bending that could hold a tangent plane.
+    #[error("{0} is a membrane: it has no bending to hold a direction with. Choose another objective first")]
+    MembraneHasNoPlane(SurfaceId),
     /// Nothing hangs on the point that could be let go.
     #[error("nothing hangs on {0}: there is nothing to release. Delete removes it")]
     NothingToRelease(PointId),

@@ -17,6 +17,7 @@ mod model;
 mod modeler;
 mod network;
 mod operation;
+mod plane;
 mod region;
 mod rehydrate;
 mod relax;

@@ -138,7 +138,8 @@ impl Relaxer {
         for (id, shape) in &model.surfaces {
             if let Some(bound) = self.surfaces.get_mut(id) {
                 bound.read(shape);
-                if bound.choose(model, *id, shape) {
+                let is_chosen = bound.choose(model, *id, shape);
+                if bound.prescribe(model, *id, shape) || is_chosen {
                     self.states.remove(id);
                 }
                 continue;
@@ -147,6 +148,7 @@ impl Relaxer {
             match BoundSurface::new(*id, shape) {
                 Ok(mut bound) => {
                     bound.choose(model, *id, shape);
+                    bound.prescribe(model, *id, shape);
                     self.surfaces.insert(*id, bound);
                 }
                 Err(_) => self.rescues = self.rescues.saturating_add(1),

@@ -12,6 +12,8 @@
 //! senses: rows of a scalar field on the surface, which annihilate constants exactly (predictor, section 5).
 
 use crate::batch::Batch;
+use crate::clamp::Demand;
+use crate::constraint::Planes;
 use crate::fits::{Fits, Row};
 use crate::lanes::Pair;
 use crate::objective::Goals;
@@ -175,12 +177,34 @@ impl Assembly {
                 }
             }
         }
+        if kind == Rows::Offset {
+            self.add_clamps(rings, goals, fits);
+        }
         for (unknown, value) in self.matrix.diagonal_mut().iter_mut().enumerate() {
             *value = *value * (1.0 + DIAGONAL_SHIFT) + mass(unknown);
             // A node that no row mentions is its own equation.
             if !(*value > 0.0) {
                 *value = 1.0;
             }
+        }
+    }
+
+    /// What a tilt of a ring against its prescribed plane costs.
+    fn add_clamps(&mut self, rings: &Rings, goals: &Goals, fits: &Fits) {
+        let values = self.matrix.values_mut();
+        for (plane, clamp) in goals.planes.iter().flat_map(Planes::list).zip(&fits.clamps) {
+            let price = goals.price(plane.node as usize);
+            let demand = Demand {
+                plate: price.plate,
+                tilt: price.rows(),
+                variation: price.variation * fits.variation.as_ref().map_or(0.0, |variation| variation.scale),
+                bending: [0.0; 3],
+            };
+            let (number, lane) = plane.home;
+            let places = &self.places[rings.batches()[number].pairs()];
+            clamp.products(&demand, rings.senses(plane.node as usize), |i, j, value| {
+                values[places[i * (i + 1) / 2 + j][lane] as usize] += value;
+            });
         }
     }
 

@@ -30,6 +30,9 @@ pub enum SolverError {
     /// Only fixed nodes can be moved; call `set_fixed` first.
     #[error("node {0} is not fixed and so cannot be moved")]
     NotFixed(u32),
+    /// The normal prescribed at this node has no direction: one of its coordinates must differ from zero.
+    #[error("the normal prescribed at node {0} has no direction")]
+    NoDirection(u32),
     /// The connectivity is not one the solver can work with.
     #[error(transparent)]
     Rings(#[from] RingError),

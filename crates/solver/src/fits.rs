@@ -5,10 +5,14 @@
 //! which the matrix is assembled. Two ordinary nodes go through together; a pair in which either is out of the
 //! ordinary goes through one by one, with care.
 
+mod clamped;
+
 use glam::DVec3;
 
 use crate::barrier;
 use crate::batch::Batch;
+use crate::clamp::Clamp;
+use crate::constraint::Planes;
 use crate::energy::fair::Variation;
 use crate::energy::thin_plate::{self, Demand};
 use crate::error::check_positions;
@@ -78,6 +82,8 @@ pub(crate) struct Fits {
     pub(crate) rows: Vec<Row>,
     /// The variation of curvature, where it counts.
     pub(crate) variation: Option<Variation>,
+    /// The fits of nodes whose tangent plane is prescribed, in the order of the planes.
+    pub(crate) clamps: Vec<Clamp>,
     /// The batches that are fitted, by place, if some are left as they are; their nodes cannot have moved.
     pub(crate) active: Option<Vec<usize>>,
     /// What there is.
@@ -120,6 +126,7 @@ impl Fits {
             gradient: vec![DVec3::ZERO; rings.len()],
             rows: vec![Row::default(); rows],
             variation: goals.network.as_ref().map(|network| Variation::new(rings, network)),
+            clamps: vec![Clamp::default(); goals.planes.as_ref().map_or(0, |planes| planes.list().len())],
             active: None,
             has: Wanted::Energy,
         }
@@ -149,6 +156,10 @@ impl Fits {
         }
         if let (Some(variation), Some(skin)) = (&mut self.variation, &goals.skin) {
             variation.measure(&self.positions, &self.nodes, skin.area(&self.positions) * PER_SPHERE);
+            // A tilt against a prescribed plane is a change of curvature within one neighbourhood.
+            for (plane, clamp) in goals.planes.iter().flat_map(Planes::list).zip(&self.clamps) {
+                variation.energy += goals.price(plane.node as usize).variation * clamp.variation();
+            }
             others += variation.energy * variation.scale;
             if makes_gradient {
                 variation.differentiate(&self.positions, &self.nodes, &mut self.gradient);
@@ -192,6 +203,7 @@ impl Fits {
             let batch = &batches[active.as_ref().map_or(place, |active| active[place])];
             let is_done = match (batch.is_regular(), batch.is_boundary) {
                 (false, _) => false,
+                _ if sweep.goals.planes.is_some() && clamped::has_plane(sweep.goals, batch) => false,
                 (true, false) => self.fit_pair::<5>(rings, batch, sweep),
                 (true, true) => self.fit_pair::<3>(rings, batch, sweep),
             };
@@ -272,6 +284,10 @@ impl Fits {
             jacobian: fit.jacobian,
             l: fit.l,
         };
+        if let Some(place) = sweep.goals.plane(node).filter(|_| careful.kind != Kind::Flat) {
+            self.fit_clamped(rings, batch, lane, &careful, place, sweep);
+            return;
+        }
         self.keep(rings, node, 0, ring, careful.is_fitted());
         if sweep.wanted < Wanted::Rows {
             return;

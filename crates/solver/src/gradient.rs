@@ -19,12 +19,12 @@ pub(crate) struct Backward<T> {
     /// Derivative with respect to every chord `e_j`.
     pub(crate) chords: [Vector<T>; MAX_RING],
     /// With respect to the polar coordinates of every chord.
-    r: [T; MAX_RING],
-    theta: [T; MAX_RING],
+    pub(crate) r: [T; MAX_RING],
+    pub(crate) theta: [T; MAX_RING],
     /// With respect to the scaled angle between a chord and the next (the area sees it directly).
     gap: [T; MAX_RING],
     /// One over a chord's length and its square; zero for a chord without length.
-    inverse: [T; MAX_RING],
+    pub(crate) inverse: [T; MAX_RING],
     inverse_square: [T; MAX_RING],
     /// How much of every chord itself the angles add to its derivative.
     along: [T; MAX_RING],
@@ -54,14 +54,14 @@ struct Exceptions {
 
 impl<T: Real> Backward<T> {
     #[inline(always)]
-    fn add_turning(&mut self, ring: &Ring<T>, turning: Option<&[T; MAX_RING]>) {
+    pub(crate) fn add_turning(&mut self, ring: &Ring<T>, turning: Option<&[T; MAX_RING]>) {
         for (theta, &turning) in self.theta[..ring.degree].iter_mut().zip(turning.into_iter().flatten()) {
             *theta += turning;
         }
     }
 
     #[inline(always)]
-    fn begin(&mut self, ring: &Ring<T>) {
+    pub(crate) fn begin(&mut self, ring: &Ring<T>) {
         let degree = ring.degree;
         self.gap[..degree].fill(T::splat(0.0));
         self.along[..degree].fill(T::splat(0.0));
@@ -121,7 +121,7 @@ impl<T: Real> Backward<T> {
 
     /// Step 4, last part: the area of the fan.
     #[inline(always)]
-    fn through_area(&mut self, ring: &Ring<T>, area_bar: T) {
+    pub(crate) fn through_area(&mut self, ring: &Ring<T>, area_bar: T) {
         let sixth = area_bar * T::splat(1.0 / 6.0);
         for j in 0..ring.gaps() {
             let next = ring.next(j);
@@ -135,7 +135,7 @@ impl<T: Real> Backward<T> {
 
     /// Step 5: scaled angles -> unscaled angles -> chords.
     #[inline(always)]
-    fn through_angles(&mut self, ring: &Ring<T>) {
+    pub(crate) fn through_angles(&mut self, ring: &Ring<T>) {
         let (degree, gaps) = (ring.degree, ring.gaps());
         let zero = T::splat(0.0);
         // theta_j = s cum_j, gap_j = s angle_j, s = target / total
@@ -169,7 +169,7 @@ impl<T: Real> Backward<T> {
 
     /// Step 6: the chord's own length.
     #[inline(always)]
-    fn through_lengths(&mut self, ring: &Ring<T>) {
+    pub(crate) fn through_lengths(&mut self, ring: &Ring<T>) {
         for j in 0..ring.degree {
             self.chords[j] += ring.spokes[j].chord * (self.along[j] + self.r[j] * self.inverse[j]);
         }

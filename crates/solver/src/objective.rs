@@ -16,6 +16,7 @@
 //! A choice is made per triangle. A node on the border of two regions bends at the mean price of its triangles; an edge
 //! or a triangle belongs to the region it lies in.
 
+use crate::constraint::Planes;
 use crate::energy::fair::Network;
 use crate::energy::membrane::Film;
 use crate::rings::Rings;
@@ -111,12 +112,14 @@ pub(crate) struct Price {
     pub(crate) plate: f64,
     /// Weight of the frozen gradient.
     pub(crate) neutral: f64,
+    /// Weight of the variation of curvature.
+    pub(crate) variation: f64,
     /// Laplacian solves that stand for its part of the matrix: 1, 2 or 3.
     pub(crate) order: u8,
 }
 
 impl Price {
-    pub(crate) const PLATE: Self = Self { plate: 1.0, neutral: 0.0, order: 2 };
+    pub(crate) const PLATE: Self = Self { plate: 1.0, neutral: 0.0, variation: 0.0, order: 2 };
 
     /// Weight of its rows in the matrix.
     pub(crate) fn rows(&self) -> f64 {
@@ -136,20 +139,30 @@ pub(crate) struct Goals {
     /// Whether any node is neutral, so that no energy falls.
     pub(crate) has_neutral: bool,
     pub(crate) radius: f64,
+    /// Tangent planes that are prescribed.
+    pub(crate) planes: Option<Planes>,
 }
 
 impl Default for Goals {
     /// Thin plate everywhere.
     fn default() -> Self {
-        Self { prices: None, network: None, skin: None, film: None, has_neutral: false, radius: 1.0 }
+        Self {
+            prices: None,
+            network: None,
+            skin: None,
+            film: None,
+            has_neutral: false,
+            radius: 1.0,
+            planes: None,
+        }
     }
 }
 
 impl Goals {
     /// The objectives name as many triangles as there are.
-    pub(crate) fn new(rings: &Rings, objectives: &Objectives) -> Self {
+    pub(crate) fn new(rings: &Rings, objectives: &Objectives, planes: Option<Planes>) -> Self {
         if *objectives == Objectives::default() {
-            return Self::default();
+            return Self { planes, ..Self::default() };
         }
         let triangles = rings.triangles();
         let mut counts = vec![[0_u32; 4]; rings.len()];
@@ -162,13 +175,15 @@ impl Goals {
         let is = |triangle: usize, objective: Objective| objectives.of(triangle) == objective;
         let fair = present[Objective::Fair as usize];
         let membrane = present[Objective::Membrane as usize];
+        let has_plane = |node: usize| planes.as_ref().is_some_and(|planes| planes.has(node));
         Self {
             prices: Some(counts.into_iter().map(price).collect()),
-            network: fair.then(|| Network::new(rings, |t| is(t, Objective::Fair))),
+            network: fair.then(|| Network::new(rings, |t| is(t, Objective::Fair), has_plane)),
             skin: fair.then(|| Film::new(rings, |t| is(t, Objective::Fair))),
             film: membrane.then(|| Film::new(rings, |t| is(t, Objective::Membrane))),
             has_neutral: present[Objective::Neutral as usize],
             radius: objectives.radius,
+            planes,
         }
     }
 
@@ -176,6 +191,12 @@ impl Goals {
     #[inline(always)]
     pub(crate) fn price(&self, node: usize) -> Price {
         self.prices.as_ref().map_or(Price::PLATE, |prices| prices[node])
+    }
+
+    /// The place of a node's prescribed plane, if it has one.
+    #[inline]
+    pub(crate) fn plane(&self, node: usize) -> Option<usize> {
+        self.planes.as_ref().and_then(|planes| planes.place(node))
     }
 
     /// Whether every node is plain thin plate.
@@ -199,6 +220,7 @@ fn price(counts: [u32; 4]) -> Price {
     Price {
         plate: share(Objective::ThinPlate) + PLATE_SHARE * fair,
         neutral: share(Objective::Neutral),
+        variation: fair,
         order,
     }
 }
@@ -227,8 +249,11 @@ mod tests {
         let rings = Rings::from_triangles(disc.positions.len(), &disc.triangles).unwrap();
         let left = |t: &[u32; 3]| t.iter().map(|&node| disc.positions[node as usize].x).sum::<f64>() < 0.0;
         let choice = |t| if left(t) { Objective::Neutral } else { Objective::ThinPlate };
-        let goals =
-            Goals::new(&rings, &Objectives::by_triangle(disc.triangles.iter().map(choice).collect(), 1.0));
+        let goals = Goals::new(
+            &rings,
+            &Objectives::by_triangle(disc.triangles.iter().map(choice).collect(), 1.0),
+            None,
+        );
         let centre = goals.price(0);
         assert_eq!((centre.plate, centre.neutral, centre.rows()), (0.5, 0.5, 1.0));
         assert!(goals.has_neutral && !goals.is_plate() && goals.network.is_none());

@@ -21,6 +21,9 @@ pub struct StepReport {
     pub halvings: u32,
     /// Accepted scale of the direction; 0 when nothing moved.
     pub step_scale: f64,
+    /// Largest angle, in radians, by which a prescribed tangent plane is not yet where it was asked for; no shape rests
+    /// before it is 0.
+    pub turning: f64,
     /// The shape has come to rest: further steps gain nothing worth seeing.
     pub at_rest: bool,
     /// The search failed: positions are as they were and the next step is damped more.

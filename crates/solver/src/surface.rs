@@ -18,6 +18,7 @@ mod advance;
 mod figures;
 mod frozen;
 mod matrix;
+mod prescribe;
 mod sleep;
 
 pub use figures::NodeFigures;
@@ -122,7 +123,8 @@ impl SurfaceSolver {
         &self.fixed
     }
 
-    /// Changes which nodes are fixed; the symbolic work is done again only if they differ.
+    /// Changes which nodes are fixed; the symbolic work is done again only if they differ. Prescribed normals all go if
+    /// one of their nodes is set free.
     pub fn set_fixed(&mut self, fixed: Vec<bool>) -> Result<(), SolverError> {
         check_length(self.rings.len(), fixed.len())?;
         if fixed != self.fixed {
@@ -136,6 +138,7 @@ impl SurfaceSolver {
             self.fixed = fixed;
             self.damping = 1.0;
             self.quiet_steps = 0;
+            self.release_planes();
         }
         Ok(())
     }
@@ -158,12 +161,9 @@ impl SurfaceSolver {
             self.objectives = objectives;
         } else if objectives != self.objectives {
             self.wake();
-            self.goals = Goals::new(&self.rings, &objectives);
-            self.fits = Fits::new(&self.rings, &self.goals);
-            self.trial = Fits::new(&self.rings, &self.goals);
             self.objectives = objectives;
-            self.damping = 1.0;
-            self.quiet_steps = 0;
+            let planes = self.goals.planes.take();
+            self.set_goals(planes);
         }
         Ok(())
     }
@@ -219,6 +219,9 @@ impl SurfaceSolver {
         let is_led = !self.fits.are_at(positions) && !self.goals.has_neutral;
         self.next_wanted = if is_led { Wanted::Rows } else { Wanted::Gradient };
         self.refit(positions, Wanted::Gradient);
+        if self.turn_planes() {
+            self.refit(positions, Wanted::Gradient);
+        }
         self.slopes();
         let looseness = self.components.looseness(positions, &self.fixed);
         self.prepare()?;
@@ -256,9 +259,11 @@ impl SurfaceSolver {
             energy: self.fits.energy,
             cg_iterations: outcome.iterations,
             residual: outcome.residual,
+            turning: self.turning(),
             ..StepReport::default()
         };
         self.advance(positions, &mut report);
+        report.at_rest &= report.turning == 0.0;
         Ok(report)
     }
 
@@ -386,6 +391,7 @@ impl SurfaceSolver {
     /// Fits at these positions, and the normals that go with them.
     fn refit(&mut self, positions: &[DVec3], wanted: Wanted) {
         self.heed_positions(positions);
+        self.begin_planes(positions);
         self.fits.refit(&self.rings, &self.goals, positions, wanted);
         for (normal, fit) in self.normals.iter_mut().zip(&self.fits.nodes) {
             *normal = fit.normal;

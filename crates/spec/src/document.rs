@@ -130,6 +130,25 @@ pub struct Surface {
     /// Regions that minimise something else than the rest of it, or have another edge length.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub regions: Vec<Region>,
+    /// Normals of its tangent plane at some of its control points. Any length but zero, and either sense, mean the same.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty", deserialize_with = "crate::text::unique")]
+    pub normals: BTreeMap<PointId, DVec3>,
+    /// How it leaves some of its curves.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty", deserialize_with = "crate::text::unique")]
+    pub ribbons: BTreeMap<CurveId, Ribbon>,
+}
+
+/// A ribbon: the tangent planes of a surface along one of its curves (thesis sections 2.5.3 and 5.5).
+///
+/// Between two of its directions the plane turns about the curve without haste, and no more than it must; beyond the
+/// last one of an open curve, or all along with a single one, it is carried on without turning about the curve.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Ribbon {
+    /// The direction in which the surface leaves the curve at some of its points, at least one. What runs along the
+    /// curve does not count, nor does the length. Inside a surface it is the side to the curve's left.
+    #[serde(deserialize_with = "crate::text::unique")]
+    pub cross: BTreeMap<PointId, DVec3>,
 }
 
 /// A region of a surface: what lies beside a stretch of one of its curves, up to the next curves.
@@ -205,7 +224,15 @@ impl Surface {
     /// A surface with this skeleton, without choices of its own.
     #[must_use]
     pub fn new(skeleton: Skeleton) -> Self {
-        Self { skeleton, spacing: None, density: None, objective: None, regions: Vec::new() }
+        Self {
+            skeleton,
+            spacing: None,
+            density: None,
+            objective: None,
+            regions: Vec::new(),
+            normals: BTreeMap::new(),
+            ribbons: BTreeMap::new(),
+        }
     }
 }
 

@@ -5,6 +5,7 @@ use crate::document::{Density, Objective};
 use crate::id::{CurveId, PointId, SurfaceId};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// An act that changes the document. Each is one step of undo; a refused one changes nothing.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -104,6 +105,24 @@ pub enum Edit {
         /// In the curve's own sense; any length but zero. `None` sets it free.
         direction: Option<DVec3>,
     },
+    /// Prescribes the tangent plane of a surface at one of its control points, or sets it free.
+    Normal {
+        /// Which surface.
+        surface: SurfaceId,
+        /// At which of its points.
+        point: PointId,
+        /// Its normal, in either sense; any length but zero. `None` sets it free.
+        normal: Option<DVec3>,
+    },
+    /// Prescribes how a surface leaves one of its curves, or sets it free.
+    Ribbon {
+        /// Which surface.
+        surface: SurfaceId,
+        /// Which of its curves.
+        curve: CurveId,
+        /// How; `None` sets it free.
+        leave: Option<Leave>,
+    },
     /// Renames the document.
     Rename {
         /// The new name, at most 200 characters.
@@ -128,9 +147,21 @@ impl Edit {
             Self::Density { .. } => "Density",
             Self::Objective { .. } => "Objective",
             Self::Tangent { .. } => "Tangent",
+            Self::Normal { .. } => "Normal",
+            Self::Ribbon { .. } => "Ribbon",
             Self::Rename { .. } => "Rename",
         }
     }
+}
+
+/// How a surface leaves a curve.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Leave {
+    /// At an angle in radians from the plane in which the curve lies (as nearly as it lies in one): 0 goes on inside
+    /// the curve, in that plane, a positive one rises to the side of the surface's normal. Between -π and π.
+    Angle(f64),
+    /// In these directions, by control point.
+    Cross(BTreeMap<PointId, DVec3>),
 }
 
 /// What an objective is chosen for.

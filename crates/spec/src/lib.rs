@@ -16,10 +16,10 @@ mod text;
 mod validate;
 
 pub use document::{
-    Curve, Density, Document, Embedding, MAX_COORDINATE, Objective, Region, Side, Skeleton, SkeletonVertex,
-    Surface,
+    Curve, Density, Document, Embedding, MAX_COORDINATE, Objective, Region, Ribbon, Side, Skeleton,
+    SkeletonVertex, Surface,
 };
-pub use edit::{Edit, GrabTarget, Handle, ObjectiveOf, SpacingOf, Through};
+pub use edit::{Edit, GrabTarget, Handle, Leave, ObjectiveOf, SpacingOf, Through};
 pub use example::Example;
 pub use frame::{
     CurveRole, CurveSpan, Figures, FrameHeader, NO_REGION, PointEntry, PointRole, RegionEntry, Structure,

@@ -32,7 +32,16 @@ fn sample() -> Document {
         triangles: vec![[0, 1, 3], [1, 2, 3], [2, 0, 4], [0, 3, 4], [3, 2, 4]],
         curves: vec![Embedding { curve: CurveId(4), along: vec![0, 1, 2] }],
     };
-    document.surfaces.insert(SurfaceId(2), Surface { spacing: Some(0.05), ..Surface::new(skeleton) });
+    let ribbon = Ribbon { cross: [(PointId(3), dvec3(0.1, 0.0, -2.5))].into() };
+    document.surfaces.insert(
+        SurfaceId(2),
+        Surface {
+            spacing: Some(0.05),
+            normals: [(PointId(7), dvec3(0.0, 1.0 / 7.0, 1.0))].into(),
+            ribbons: [(CurveId(4), ribbon)].into(),
+            ..Surface::new(skeleton)
+        },
+    );
     document
 }
 
@@ -191,4 +200,49 @@ fn a_tangent_given_twice_is_refused() {
     let twice = text.replacen("\"tangents\":{\"2\":", "\"tangents\":{\"2\":[1,0,0],\"2\":", 1);
     assert_ne!(twice, text, "{text}");
     assert!(from_text(&twice).unwrap_err().to_string().contains("twice"));
+}
+
+#[test]
+fn normals_and_ribbons_must_be_directions_where_the_surface_has_controls() {
+    let refused = |change: &dyn Fn(&mut Surface)| {
+        let mut document = sample();
+        change(document.surfaces.get_mut(&SurfaceId(2)).unwrap());
+        document.validate().unwrap_err()
+    };
+    let bad = [DVec3::ZERO, DVec3::X * 1e-12, DVec3::X * f64::NAN, DVec3::Z * f64::INFINITY, DVec3::Y * 2e6];
+    for direction in bad {
+        let normal = refused(&|surface| surface.normals = [(PointId(7), direction)].into());
+        assert!(matches!(normal, Defect::Normal { point: PointId(7), .. }), "{normal}");
+        let cross = refused(&|surface| {
+            drop(surface.ribbons.insert(CurveId(4), Ribbon { cross: [(PointId(1), direction)].into() }));
+        });
+        assert!(matches!(cross, Defect::Cross { point: PointId(1), .. }), "{cross}");
+    }
+    let nowhere = refused(&|surface| surface.normals = [(PointId(9), DVec3::X)].into());
+    assert!(matches!(nowhere, Defect::Normal { point: PointId(9), .. }), "{nowhere}");
+    let beside = refused(&|surface| {
+        drop(surface.ribbons.insert(CurveId(4), Ribbon { cross: [(PointId(7), DVec3::X)].into() }));
+    });
+    assert!(matches!(beside, Defect::Cross { point: PointId(7), .. }), "{beside}");
+    for ribbons in
+        [(CurveId(4), Ribbon::default()), (CurveId(5), Ribbon { cross: [(PointId(1), DVec3::X)].into() })]
+    {
+        let curve = ribbons.0;
+        let refused = refused(&|surface| surface.ribbons = [ribbons.clone()].into());
+        assert!(matches!(refused, Defect::Ribbon { curve: c, .. } if c == curve), "{refused}");
+    }
+}
+
+#[test]
+fn a_normal_or_ribbon_given_twice_is_refused() {
+    let text = to_compact_text(&sample());
+    for (once, twice) in [
+        ("\"normals\":{", "\"normals\":{\"7\":[1,0,0],"),
+        ("\"cross\":{", "\"cross\":{\"3\":[1,0,0],"),
+        ("\"ribbons\":{", "\"ribbons\":{\"4\":{\"cross\":{\"1\":[1,0,0]}},"),
+    ] {
+        let twice = text.replacen(once, twice, 1);
+        assert_ne!(twice, text);
+        assert!(from_text(&twice).unwrap_err().to_string().contains("defined twice"));
+    }
 }

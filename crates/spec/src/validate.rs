@@ -123,6 +123,38 @@ pub enum Defect {
         /// What is wrong.
         why: &'static str,
     },
+    /// A normal is prescribed where the surface has no control point, or is no direction.
+    #[error("{surface}, normal at {point}: {why}")]
+    Normal {
+        /// Which surface.
+        surface: SurfaceId,
+        /// Where it is prescribed.
+        point: PointId,
+        /// What is wrong.
+        why: &'static str,
+    },
+    /// A ribbon lies along a curve that is not in the surface, or says nothing.
+    #[error("{surface}, ribbon along {curve}: {why}")]
+    Ribbon {
+        /// Which surface.
+        surface: SurfaceId,
+        /// Along which curve.
+        curve: CurveId,
+        /// What is wrong.
+        why: &'static str,
+    },
+    /// A ribbon has a direction where its curve does not pass, or one that is none.
+    #[error("{surface}, ribbon along {curve}, at {point}: {why}")]
+    Cross {
+        /// Which surface.
+        surface: SurfaceId,
+        /// Along which curve.
+        curve: CurveId,
+        /// At which point.
+        point: PointId,
+        /// What is wrong.
+        why: &'static str,
+    },
     /// A curve cannot lie in a surface as stated.
     #[error("{surface}: {curve} {why}")]
     Embedding {
@@ -205,14 +237,20 @@ fn validate_curve(id: CurveId, curve: &Curve, points: &BTreeMap<PointId, DVec3>)
         if !seen.contains(point) {
             return refuse("the curve does not pass through this point");
         }
-        if !direction.to_array().iter().all(|x| x.is_finite() && x.abs() <= MAX_COORDINATE) {
-            return refuse("its coordinates must be numbers between -1e6 and 1e6");
-        }
-        if direction.abs().max_element() < LEAST_DIRECTION {
-            return refuse("it has no direction: one coordinate must differ from zero");
+        if let Some(why) = no_direction(*direction) {
+            return refuse(why);
         }
     }
     Ok(())
+}
+
+/// Why a vector is no direction.
+fn no_direction(direction: DVec3) -> Option<&'static str> {
+    if !direction.to_array().iter().all(|x| x.is_finite() && x.abs() <= MAX_COORDINATE) {
+        return Some("its coordinates must be numbers between -1e6 and 1e6");
+    }
+    let is_none = direction.abs().max_element() < LEAST_DIRECTION;
+    is_none.then_some("it has no direction: one coordinate must differ from zero")
 }
 
 fn validate_surface(id: SurfaceId, surface: &Surface, document: &Document) -> Result<(), Defect> {
@@ -246,7 +284,49 @@ fn validate_surface(id: SurfaceId, surface: &Surface, document: &Document) -> Re
         }
     }
     validate_embeddings(id, surface, document)?;
-    validate_regions(id, surface, document)
+    validate_regions(id, surface, document)?;
+    validate_planes(id, surface, document)
+}
+
+fn validate_planes(id: SurfaceId, surface: &Surface, document: &Document) -> Result<(), Defect> {
+    let controls: BTreeSet<PointId> = surface
+        .skeleton
+        .vertices
+        .iter()
+        .filter_map(|vertex| match vertex {
+            SkeletonVertex::Control(point) => Some(*point),
+            SkeletonVertex::Free(_) => None,
+        })
+        .collect();
+    for (point, normal) in &surface.normals {
+        let refuse = |why| Err(Defect::Normal { surface: id, point: *point, why });
+        if !controls.contains(point) {
+            return refuse("the surface does not pass through this point");
+        }
+        if let Some(why) = no_direction(*normal) {
+            return refuse(why);
+        }
+    }
+    for (along, ribbon) in &surface.ribbons {
+        let refuse = |why| Err(Defect::Ribbon { surface: id, curve: *along, why });
+        let is_embedded = surface.skeleton.curves.iter().any(|embedding| embedding.curve == *along);
+        let Some(curve) = document.curves.get(along).filter(|_| is_embedded) else {
+            return refuse("the curve does not lie in the surface");
+        };
+        if ribbon.cross.is_empty() {
+            return refuse("it has no direction anywhere");
+        }
+        for (point, direction) in &ribbon.cross {
+            let refuse = |why| Err(Defect::Cross { surface: id, curve: *along, point: *point, why });
+            if !curve.through.contains(point) {
+                return refuse("the curve does not pass through this point");
+            }
+            if let Some(why) = no_direction(*direction) {
+                return refuse(why);
+            }
+        }
+    }
+    Ok(())
 }
 
 fn validate_regions(id: SurfaceId, surface: &Surface, document: &Document) -> Result<(), Defect> {

@@ -60,6 +60,8 @@ pub struct Highlight {
     pub selected_curve: Option<CurveId>,
     /// The control point that a drag holds.
     pub held: Option<PointId>,
+    /// Prescribed directions at what is selected: where, and which way; drawn at one length on the screen.
+    pub directions: Vec<(Vec3, Vec3)>,
     /// Points that a tool would make.
     pub ghost: Vec<Vec3>,
     /// A polyline that a tool would make.

@@ -33,6 +33,8 @@ const HIDDEN_POINT: f32 = 0.30;
 /// Radius of the ring that lies on a surface where a grab would take hold.
 const RING: f32 = 10.0;
 const RING_CORNERS: u8 = 48;
+/// Length of a prescribed direction.
+const DIRECTION: f32 = 44.0;
 
 /// The parts of a scene's structure that the skeleton needs, and where its points are.
 #[derive(Debug, Default)]
@@ -119,6 +121,9 @@ pub(crate) fn add_highlight(marks: &mut Marks, camera: &Camera, highlight: &High
         Some(Hit::Curve { at, .. }) => marks.add_dot(at, ghost(theme)),
         Some(Hit::Point { .. }) | None => {}
     }
+    for (at, way) in &highlight.directions {
+        add_direction(marks, camera, *at, *way, theme);
+    }
     if highlight.ghost_line.len() > 1 {
         let fill = theme.curve.with_w(0.75);
         let style = Style { fill, half_width: CURVE, hidden: 0.5, ..Style::default() };
@@ -145,6 +150,22 @@ fn add_arm(marks: &mut Marks, foot: Vec3, end: Vec3, is_hovered: bool, theme: &T
     };
     marks.add_polyline([foot, end].into_iter(), false, style);
     marks.add_dot(end, Style { half_width: HANDLE + thicker, outline_width: HALO, ..style });
+}
+
+/// A prescribed direction: a line of one length on the screen, with a dot at its end.
+fn add_direction(marks: &mut Marks, camera: &Camera, at: Vec3, way: Vec3, theme: &Theme) {
+    let Some(way) = (way / way.abs().max_element()).try_normalize() else { return };
+    let end = at + way * (DIRECTION * camera.unit_per_pixel(at));
+    let line = Style {
+        fill: theme.handle,
+        outline: theme.halo.with_w(0.6),
+        half_width: CURVE,
+        outline_width: 1.0,
+        hidden: 0.5,
+        flags: 0,
+    };
+    marks.add_polyline([at, end].into_iter(), false, line);
+    marks.add_dot(end, Style { half_width: 2.4, ..line });
 }
 
 /// A point that is not there yet.
@@ -246,6 +267,22 @@ mod tests {
         assert_eq!(Vec3::from_slice(&marks.floats[at..at + 3]), Vec3::Y);
         let [plain, hovered] = [marks.dot_styles[0], marks.dot_styles[1]];
         assert!(plain.fill == theme.handle && hovered.half_width > plain.half_width);
+    }
+
+    #[test]
+    fn a_prescribed_direction_has_one_length_on_the_screen_however_long_it_is() {
+        let camera = Camera::default();
+        for length in [1e-7, 1.0, 1e6] {
+            let mut marks = Marks::default();
+            let way = Vec3::new(0.0, 0.6, 0.8);
+            let directions = vec![(Vec3::X, way * length), (Vec3::Y, Vec3::ZERO)];
+            let highlight = Highlight { directions, ..Highlight::default() };
+            add_highlight(&mut marks, &camera, &highlight, &Theme::new(true));
+            assert_eq!((marks.segments.len(), marks.dots.len()), (1, 1), "none where there is no direction");
+            let end = Vec3::from_slice(&marks.floats[3..6]);
+            let wanted = Vec3::X + way * (DIRECTION * camera.unit_per_pixel(Vec3::X));
+            assert!(end.distance(wanted) < 1e-5, "{end}");
+        }
     }
 
     #[test]

@@ -29,6 +29,8 @@ mod link;
 #[cfg(target_arch = "wasm32")]
 mod menu;
 #[cfg(target_arch = "wasm32")]
+mod normal;
+#[cfg(target_arch = "wasm32")]
 mod notice;
 #[cfg(target_arch = "wasm32")]
 mod objectives;
@@ -42,6 +44,8 @@ mod panel;
 mod port;
 #[cfg(target_arch = "wasm32")]
 mod replies;
+#[cfg(target_arch = "wasm32")]
+mod ribbon;
 #[cfg(target_arch = "wasm32")]
 mod settings;
 #[cfg(target_arch = "wasm32")]

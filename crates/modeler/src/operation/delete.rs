@@ -2,7 +2,7 @@
 
 use crate::error::ModelError;
 use crate::model::Model;
-use crate::operation::{is_unused, refresh_skeleton, region, release};
+use crate::operation::{is_unused, refresh_skeleton, region, release, ribbon};
 use crate::shape::edit;
 use ductile_spec::{CurveId, PointId, SkeletonVertex, SurfaceId};
 
@@ -63,6 +63,7 @@ pub(crate) fn curve(model: &mut Model, id: CurveId) -> Result<(), ModelError> {
         refresh_skeleton(model, surface);
     }
     drop_unused(model, curve.through);
+    ribbon::forget_lost(model);
     model.document.validate()?;
     Ok(())
 }

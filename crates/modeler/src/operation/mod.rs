@@ -5,11 +5,13 @@ mod curve;
 mod delete;
 mod density;
 mod insert;
+mod normal;
 mod objective;
 mod pin;
 mod point;
 mod region;
 mod release;
+mod ribbon;
 mod sheet;
 mod slide;
 mod spacing;
@@ -56,6 +58,10 @@ fn act(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result<(), ModelErr
         Edit::Density { of, density } => density::choose(model, *of, *density),
         Edit::Objective { of, objective } => objective::choose(model, *of, *objective),
         Edit::Tangent { curve, point, direction } => tangent::tangent(model, *curve, *point, *direction),
+        Edit::Normal { surface, point, normal } => normal::normal(model, *surface, *point, *normal),
+        Edit::Ribbon { surface, curve, leave } => {
+            ribbon::ribbon(model, relaxer, *surface, *curve, leave.as_ref())
+        }
         Edit::Rename { name } => {
             model.document_mut().name.clone_from(name);
             Ok(model.document.validate()?)

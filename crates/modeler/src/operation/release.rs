@@ -2,7 +2,7 @@
 
 use crate::error::ModelError;
 use crate::model::Model;
-use crate::operation::{is_unused, refresh_skeleton, region};
+use crate::operation::{is_unused, refresh_skeleton, region, ribbon};
 use crate::shape::edit;
 use ductile_mesh::SourceTag;
 use ductile_spec::{CurveId, PointId};
@@ -34,6 +34,7 @@ pub(crate) fn release(model: &mut Model, point: PointId) -> Result<(), ModelErro
         refresh_skeleton(model, *id);
     }
     model.document_mut().points.remove(&point);
+    ribbon::forget_lost(model);
     model.document.validate()?;
     Ok(())
 }

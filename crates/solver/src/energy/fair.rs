@@ -41,9 +41,14 @@ struct Edge {
 pub(crate) struct Network(Arc<[Edge]>);
 
 impl Network {
-    /// Edges beside triangles of the region whose ends both lie inside the surface.
+    /// Edges beside triangles of the region whose ends both lie inside the surface, or on its boundary with a prescribed plane: elsewhere a
+    /// boundary does not know how it bends across.
     #[expect(clippy::cast_possible_truncation, reason = "nodes and spokes are counted by u32")]
-    pub(crate) fn new(rings: &Rings, is_in_region: impl Fn(usize) -> bool) -> Self {
+    pub(crate) fn new(
+        rings: &Rings,
+        is_in_region: impl Fn(usize) -> bool,
+        has_plane: impl Fn(usize) -> bool,
+    ) -> Self {
         // Per spoke, how many triangles of the region lie beside it.
         let mut beside = vec![0_u32; rings.spokes()];
         let chosen = rings.triangles().iter().enumerate().filter(|&(index, _)| is_in_region(index));
@@ -58,12 +63,19 @@ impl Network {
         let mut edges = Vec::new();
         for (slot, from, to) in rings.edges() {
             let count = beside[slot];
-            if count == 0 || rings.is_boundary(from) || rings.is_boundary(to) {
+            let is_open = |node: usize| rings.is_boundary(node) && !has_plane(node);
+            if count == 0 || is_open(from) || is_open(to) {
                 continue;
             }
             let ring = rings.ring(from);
             let place = slot - rings.slots(from).start;
-            let across = [ring[(place + ring.len() - 1) % ring.len()], ring[(place + 1) % ring.len()]];
+            let last = ring.len() - 1;
+            // An edge of the boundary has one triangle, which then speaks for both, at half the share.
+            let across = match (rings.is_boundary(from), place) {
+                (true, 0) => [ring[1]; 2],
+                (true, place) if place == last => [ring[last - 1]; 2],
+                _ => [ring[(place + last) % ring.len()], ring[(place + 1) % ring.len()]],
+            };
             let Some(back) = rings.ring(to).iter().position(|&far| far as usize == from) else { continue };
             edges.push(Edge {
                 nodes: [from as u32, to as u32],

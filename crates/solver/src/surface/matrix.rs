@@ -2,9 +2,10 @@
 //! without being assembled.
 
 use crate::bending::Bending;
+use crate::constraint::Planes;
 use crate::fits::{Fits, PER_SPHERE};
 use crate::objective::Goals;
-use crate::operator::{SymmetricMatrix, Unknowns};
+use crate::operator::{FIXED, SymmetricMatrix, Unknowns};
 use crate::precondition::Preconditioner;
 use crate::rings::Rings;
 
@@ -104,6 +105,18 @@ pub(super) fn slopes(
             *price = fit.l.map(|l| factor * l);
         }
         bending(rings, fits, unknowns, false).add_transpose(&scratch.prices, rhs);
+        for (plane, clamp) in goals.planes.iter().flat_map(Planes::list).zip(&fits.clamps) {
+            let node = plane.node as usize;
+            let weight = goals.price(node).neutral;
+            if weight > 0.0 {
+                clamp.pull(weight, rings.senses(node), |place, value| {
+                    let at = if place == 0 { plane.node } else { rings.ring(node)[place - 1] };
+                    if unknowns.index[at as usize] != FIXED {
+                        rhs[unknowns.index[at as usize] as usize] += value;
+                    }
+                });
+            }
+        }
     }
 }
 

@@ -142,6 +142,8 @@ impl Page {
             "reset" => self.reset(),
             "delete" => self.delete_selected(),
             "free-tangent" => self.free_tangent(),
+            "free-normal" => self.free_normal(),
+            "free-ribbon" => self.free_ribbon(),
             "release" => {
                 if let Selection::Point(point) = self.selection {
                     self.request(Request::Edit(Edit::Release { point }));

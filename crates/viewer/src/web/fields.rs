@@ -3,7 +3,7 @@
 use super::density;
 use super::dom;
 use super::page::{Page, act};
-use super::tangent;
+use super::{normal, ribbon, tangent};
 use crate::number;
 use crate::tool::Selection;
 use ductile_spec::{Edit, PointId, Request};
@@ -24,6 +24,10 @@ pub(crate) fn listen() {
     for id in density::FIELDS {
         on_field(id, move |page, text| page.typed_spacing(id, text));
     }
+    for (index, id) in normal::FIELDS.into_iter().enumerate() {
+        on_field(id, move |page, text| page.typed_normal(index, text));
+    }
+    on_field(ribbon::FIELD, Page::typed_ribbon);
     on_field("name", |page, text| {
         let name = text.trim().to_owned();
         if name != page.document.name {
@@ -70,7 +74,13 @@ impl Page {
 
     /// Writes the present values into the fields.
     pub(crate) fn show_fields(&self) {
-        for id in COORDINATES.into_iter().chain(tangent::FIELDS).chain(density::FIELDS) {
+        for id in COORDINATES
+            .into_iter()
+            .chain(tangent::FIELDS)
+            .chain(normal::FIELDS)
+            .chain(density::FIELDS)
+            .chain([ribbon::FIELD])
+        {
             self.fill_field(&dom::element_as(id), false);
         }
     }
@@ -91,6 +101,10 @@ impl Page {
             (field, Selection::Point(_)) if tangent::FIELDS.contains(&field) => {
                 self.tangent_text(tangent::FIELDS.iter().position(|name| *name == field).unwrap_or(0))
             }
+            (field, Selection::Point(_)) if normal::FIELDS.contains(&field) => {
+                self.normal_text(normal::FIELDS.iter().position(|name| *name == field).unwrap_or(0))
+            }
+            (ribbon::FIELD, Selection::Curve(_)) => self.ribbon_text(),
             (_, Selection::Point(point)) => {
                 let live = self.scene.header.held == Some(point);
                 let place = if live {

@@ -223,6 +223,8 @@ impl Page {
         dom::show(&dom::element("release"), hangs);
         dom::show(&dom::element("delete"), self.selection != Selection::None && !hangs);
         self.show_tangent();
+        self.show_normal();
+        self.show_ribbon();
         let facts = dom::element("facts");
         dom::clear(&facts);
         for (name, value) in self.facts(role) {

@@ -262,6 +262,7 @@ impl Page {
             hover_view: self.hand.hover_view,
             held: self.hand.drag.and(self.scene.header.held),
             work_plane: Some(work_plane(self.camera.forward())),
+            directions: self.marked_directions(),
             ..Highlight::default()
         };
         match self.selection {

@@ -71,7 +71,7 @@ impl Page {
     }
 
     /// The direction that a curve has now at a point of it, in digits that a person would type.
-    fn present_tangent(&self, curve: CurveId, point: PointId) -> Option<DVec3> {
+    pub(crate) fn present_tangent(&self, curve: CurveId, point: PointId) -> Option<DVec3> {
         let closed = self.document.curves.get(&curve)?.closed;
         let place = self.scene.point(point)?;
         let samples: Vec<_> = self.scene.samples(curve).collect();

@@ -1,0 +1,70 @@
+//! `ribbon`: how a surface leaves one of its curves (thesis sections 2.5.3 and 5.5).
+
+use crate::error::ModelError;
+use crate::model::{Model, round_to_digits};
+use crate::plane;
+use crate::relax::Relaxer;
+use ductile_spec::{CurveId, Leave, Objective, Ribbon, SkeletonVertex, SurfaceId};
+use glam::DVec3;
+
+/// Digits of a direction: an angle is kept to less than a millionth of a radian.
+const DIRECTION_DIGITS: usize = 8;
+
+/// Prescribes how a surface leaves a curve, or sets it free; the surface relaxes from where it is.
+pub(super) fn ribbon(
+    model: &mut Model,
+    relaxer: &Relaxer,
+    id: SurfaceId,
+    curve: CurveId,
+    leave: Option<&Leave>,
+) -> Result<(), ModelError> {
+    let shape = model.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?;
+    let cross = match leave {
+        None => None,
+        Some(Leave::Cross(cross)) => Some(cross.clone()),
+        Some(Leave::Angle(angle)) => {
+            if angle.is_nan() || angle.abs() > core::f64::consts::PI {
+                return Err(ModelError::BadAngle);
+            }
+            let bound = relaxer.surface(id, shape).ok_or(ModelError::NoSurface(id))?;
+            let mut cross = bound.planes(model, shape).leaving(id, curve, *angle)?;
+            let kept = |x: f64| round_to_digits(x, DIRECTION_DIGITS) + 0.0;
+            // Noise of a sine is no digit.
+            let kept = |x: f64| if x.abs() < 1e-12 { 0.0 } else { kept(x) };
+            cross.values_mut().for_each(|at| *at = DVec3::from_array(at.to_array().map(kept)));
+            Some(cross)
+        }
+    };
+    let ribbons = &mut model.document_mut().surfaces.get_mut(&id).ok_or(ModelError::NoSurface(id))?.ribbons;
+    let Some(cross) = cross else {
+        ribbons.remove(&curve);
+        return Ok(model.document.validate()?);
+    };
+    let ribbon = Ribbon { cross };
+    ribbons.insert(curve, ribbon.clone());
+    model.document.validate()?;
+    check_bends(model, id)?;
+    plane::check_cross(model, id, curve, &ribbon)
+}
+
+/// Refuses a plane for a surface that has no bending to hold it with.
+pub(super) fn check_bends(model: &Model, id: SurfaceId) -> Result<(), ModelError> {
+    let is_film = model.document.objective_of_surface(id) == Objective::Membrane;
+    let has_regions = model.document.surfaces.get(&id).is_some_and(|surface| !surface.regions.is_empty());
+    if is_film && !has_regions { Err(ModelError::MembraneHasNoPlane(id)) } else { Ok(()) }
+}
+
+/// Forgets what was prescribed where surfaces have no controls any more.
+pub(super) fn forget_lost(model: &mut Model) {
+    let document = model.document_mut();
+    let curves = &document.curves;
+    for surface in document.surfaces.values_mut() {
+        let skeleton = &surface.skeleton;
+        surface.normals.retain(|point, _| skeleton.vertices.contains(&SkeletonVertex::Control(*point)));
+        surface.ribbons.retain(|id, ribbon| {
+            let curve = curves.get(id).filter(|_| skeleton.curves.iter().any(|e| e.curve == *id));
+            ribbon.cross.retain(|point, _| curve.is_some_and(|curve| curve.through.contains(point)));
+            !ribbon.cross.is_empty()
+        });
+    }
+}

@@ -1,0 +1,129 @@
+//! How a surface leaves the chosen curve: one angle, in degrees, from the plane in which the curve lies.
+//!
+//! The document keeps directions at the curve's points. Where they have one angle in common the field shows it; where not, it
+//! says so. Where a curve lies in several surfaces the field belongs to the first.
+
+use super::dom;
+use super::page::Page;
+use crate::number;
+use crate::tool::Selection;
+use ductile_spec::{CurveId, Edit, Leave, PointId, Request, SurfaceId};
+use glam::{DVec2, DVec3, Vec3};
+use web_sys::HtmlInputElement;
+
+/// The field.
+pub(crate) const FIELD: &str = "ribbon-angle";
+
+/// Degrees by which the angles at the points may differ and still be shown as one.
+const ALIKE: f64 = 0.05;
+
+impl Page {
+    /// The chosen curve and the surface that the field is about.
+    fn ribbon_subject(&self) -> Option<(SurfaceId, CurveId)> {
+        let Selection::Curve(curve) = self.selection else { return None };
+        self.document.surfaces_on(curve).next().map(|surface| (surface, curve))
+    }
+
+    /// What the field shows.
+    pub(crate) fn ribbon_text(&self) -> String {
+        self.ribbon_angle().map(|angle| number::show((angle * 10.0).round() / 10.0)).unwrap_or_default()
+    }
+
+    /// Shows the field where the curve lies in a surface, and the way back where there is a ribbon.
+    pub(crate) fn show_ribbon(&self) {
+        let subject = self.ribbon_subject();
+        dom::show(&dom::element("ribbon-properties"), subject.is_some());
+        let has_ribbon = subject.is_some_and(|subject| self.ribbon(subject).is_some());
+        dom::show(&dom::element("free-ribbon"), has_ribbon);
+        let field: HtmlInputElement = dom::element_as(FIELD);
+        field.set_placeholder(if has_ribbon { "various" } else { "free" });
+    }
+
+    /// Takes what was typed; says what is wrong with it.
+    pub(crate) fn typed_ribbon(&mut self, text: &str) -> Option<String> {
+        let (surface, curve) = self.ribbon_subject()?;
+        if text.trim().is_empty() {
+            // A ribbon of various angles shows nothing either: leaving the field does not free it.
+            if self.ribbon_angle().is_some() {
+                self.free_ribbon();
+            }
+            return None;
+        }
+        match number::parse(text.trim().trim_end_matches('°')) {
+            Ok(angle) if number::show(angle) == self.ribbon_text() => None,
+            Ok(angle) if angle.abs() > 180.0 => {
+                Some("An angle lies between -180 and 180 degrees.".to_owned())
+            }
+            Ok(angle) => {
+                let leave = Some(Leave::Angle(angle.to_radians()));
+                self.request(Request::Edit(Edit::Ribbon { surface, curve, leave }));
+                None
+            }
+            Err(error) => Some(error.to_string()),
+        }
+    }
+
+    /// Sets the surface free along the curve.
+    pub(crate) fn free_ribbon(&mut self) {
+        if let Some((surface, curve)) = self.ribbon_subject() {
+            self.request(Request::Edit(Edit::Ribbon { surface, curve, leave: None }));
+        }
+    }
+
+    fn ribbon(&self, (surface, curve): (SurfaceId, CurveId)) -> Option<&ductile_spec::Ribbon> {
+        self.document.surfaces.get(&surface)?.ribbons.get(&curve)
+    }
+
+    /// The directions of the chosen curve's ribbon: where, and which way.
+    pub(crate) fn ribbon_directions(&self, curve: CurveId) -> Vec<(Vec3, Vec3)> {
+        let ribbon =
+            self.document.surfaces_on(curve).next().and_then(|surface| self.ribbon((surface, curve)));
+        let cross = ribbon.into_iter().flat_map(|ribbon| &ribbon.cross);
+        cross.filter_map(|(point, cross)| Some((self.scene.point(*point)?, cross.as_vec3()))).collect()
+    }
+
+    /// The angle that the ribbon has at all of its points, in degrees.
+    fn ribbon_angle(&self) -> Option<f64> {
+        let subject = self.ribbon_subject()?;
+        let ribbon = self.ribbon(subject)?;
+        let mut angles = Vec::new();
+        for (point, cross) in &ribbon.cross {
+            angles.push(self.angle_at(subject, *point, *cross)?);
+        }
+        let first = *angles.first()?;
+        let alike = |angle: &f64| {
+            let off = (angle - first).abs();
+            off.min(360.0 - off) <= ALIKE
+        };
+        angles.iter().all(alike).then_some(first)
+    }
+
+    /// The angle of a direction at a point, in degrees, as the modeler understands it.
+    fn angle_at(&self, (surface, curve): (SurfaceId, CurveId), point: PointId, cross: DVec3) -> Option<f64> {
+        let tangent = self.present_tangent(curve, point)?.try_normalize()?;
+        let plane = area(self.scene.samples(curve)).try_normalize()?;
+        let inwards = plane.cross(tangent).try_normalize()?;
+        let up = tangent.cross(inwards);
+        let is_boundary = self.scene.curve(curve)?.role == ductile_spec::CurveRole::Boundary;
+        let (along, across) = (cross.dot(up), cross.dot(inwards));
+        let (sin, cos) = if is_boundary {
+            // The normal, along the curve times into the surface, says which way round the surface sees the curve.
+            let normal = self.surface_normal(surface, self.scene.point(point)?)?.as_dvec3();
+            (if normal.dot(tangent.cross(cross)) < 0.0 { -along } else { along }, across)
+        } else if across < 0.0 {
+            (-along, -across)
+        } else {
+            (along, across)
+        };
+        Some(DVec2::X.angle_to(DVec2::new(cos, sin)).to_degrees())
+    }
+}
+
+/// Twice the vector area of a closed polygon.
+fn area(samples: impl ExactSizeIterator<Item = Vec3> + Clone) -> DVec3 {
+    let count = samples.len().max(1) as f64;
+    let places = samples.map(|at| at.as_dvec3());
+    let centre = places.clone().sum::<DVec3>() / count;
+    let next = places.clone().cycle().skip(1);
+    places.zip(next).map(|(a, b)| (a - centre).cross(b - centre)).sum()
+}

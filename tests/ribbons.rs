@@ -1,0 +1,220 @@
+//! Normals and ribbons as a designer prescribes them: through the text, the acts, the drags and the mesh's upkeep.
+
+#![allow(clippy::unwrap_used, reason = "a failing test should stop where it fails")]
+
+use acceptance::Bench;
+use ductile_spec::{
+    CurveId, Document, Edit, Example, GrabTarget, Leave, Objective, ObjectiveOf, PointId, Request, Ribbon,
+    SpacingOf, SurfaceId, from_text, to_text,
+};
+use glam::{DVec3, dvec3};
+use std::f64::consts::{FRAC_PI_4, PI};
+
+const SURFACE: SurfaceId = SurfaceId(1);
+const RIM: CurveId = CurveId(1);
+
+fn ribbon(bench: &mut Bench, curve: CurveId, degrees: f64) {
+    let leave = Some(Leave::Angle(degrees.to_radians()));
+    bench.edit(Edit::Ribbon { surface: SURFACE, curve, leave });
+}
+
+/// Where the vertices are.
+fn places(bench: &Bench) -> Vec<DVec3> {
+    let shape = &bench.modeler.model().surfaces[&SURFACE];
+    shape.mesh.vertices().map(|v| shape.positions[v.index()]).collect()
+}
+
+/// Largest distance from the cap over the unit circle that leans by an angle.
+fn off_cap(bench: &Bench, angle: f64) -> f64 {
+    let radius = 1.0 / libm::sin(angle);
+    let centre = DVec3::Z * (-radius * libm::cos(angle));
+    places(bench).iter().map(|p| (p.distance(centre) - radius).abs()).fold(0.0, f64::max)
+}
+
+fn fair_disc() -> Bench {
+    let mut bench = Bench::with(Example::Disc);
+    // Fair curves keep the rim a circle.
+    bench.edit(Edit::Objective { of: ObjectiveOf::Document, objective: Some(Objective::Fair) });
+    bench.rest(600);
+    bench
+}
+
+#[test]
+fn a_rim_left_at_45_degrees_bounds_a_sphere_cap_and_undo_takes_it_back() {
+    let mut bench = fair_disc();
+    let before = bench.document.clone();
+    ribbon(&mut bench, RIM, 45.0);
+    bench.rest(600);
+    let off = off_cap(&bench, FRAC_PI_4);
+    println!("fair: off by {off:e}");
+    assert!(off < 2e-4, "{off}");
+    // The same from the text alone.
+    let document = bench.document();
+    assert_eq!(document.surfaces[&SURFACE].ribbons[&RIM].cross.len(), document.curves[&RIM].through.len());
+    let mut other = Bench::new();
+    other.accept(Request::OpenText { text: to_text(&document) });
+    other.rest(600);
+    let off = off_cap(&other, FRAC_PI_4);
+    println!("opened: off by {off:e}");
+    assert!(off < 2e-4, "{off}");
+    bench.accept(Request::Undo);
+    assert_eq!(bench.document, before);
+    bench.rest(600);
+    assert!(places(&bench).iter().all(|p| p.z.abs() < 1e-3), "flat again");
+}
+
+#[test]
+fn a_single_direction_is_carried_round_the_rim() {
+    let mut bench = fair_disc();
+    let point = bench.document().curves[&RIM].through[1];
+    let at = bench.document().points[&point];
+    let cross = [(point, (-at + DVec3::Z * at.length()) * 5.0)].into();
+    bench.edit(Edit::Ribbon { surface: SURFACE, curve: RIM, leave: Some(Leave::Cross(cross)) });
+    bench.rest(600);
+    let off = off_cap(&bench, FRAC_PI_4);
+    assert!(off < 2e-4, "{off}");
+}
+
+#[test]
+fn ribbons_are_kept_through_a_drag_and_at_other_densities() {
+    let heights = [0.12, 0.06].map(|spacing| {
+        let mut bench = Bench::with(Example::Disc);
+        bench.edit(Edit::Spacing { of: SpacingOf::Document, spacing: Some(spacing) });
+        ribbon(&mut bench, RIM, 60.0);
+        bench.rest(600);
+        let before = places(&bench).iter().map(|p| p.z).fold(0.0, f64::max);
+        // A point of the rim out, up, and home.
+        let point = bench.document().curves[&RIM].through[0];
+        let at = bench.document().points[&point];
+        bench.accept(Request::Grab(GrabTarget::Point(point)));
+        for share in [0.1, 0.2, 0.4, 0.6, 0.4, 0.2, 0.0] {
+            let reply = bench.step(Some(at * (1.0 + share) + DVec3::Z * share));
+            assert!(reply.frame.figures.energy.is_finite());
+        }
+        bench.accept(Request::Drop);
+        bench.rest(600);
+        let after = places(&bench).iter().map(|p| p.z).fold(0.0, f64::max);
+        println!("spacing {spacing}: {before} before the drag, {after} after it");
+        assert!((before - after).abs() < 5e-3, "{before} and {after}");
+        after
+    });
+    // A cap that leans by 60 degrees is this high.
+    let exact = libm::tan(PI / 6.0);
+    assert!(
+        (heights[0] - exact).abs() < 0.02 && (heights[1] - exact).abs() < 0.01,
+        "{heights:?} for {exact}"
+    );
+}
+
+#[test]
+fn the_two_rims_of_a_cylinder_left_straight_keep_a_fair_one_straight() {
+    let mut bench = Bench::with(Example::Cylinder);
+    bench.edit(Edit::Objective { of: ObjectiveOf::Document, objective: Some(Objective::Fair) });
+    let curves: Vec<CurveId> = bench.document().curves.keys().copied().collect();
+    for (curve, up) in curves.iter().zip([1.0, -1.0]) {
+        let through = bench.document().curves[curve].through.clone();
+        let leave = Some(Leave::Cross([(through[0], DVec3::Z * up)].into()));
+        bench.edit(Edit::Ribbon { surface: SURFACE, curve: *curve, leave });
+    }
+    bench.rest(600);
+    let radii = places(&bench).into_iter().map(|p| p.truncate().length()).collect::<Vec<_>>();
+    let (least, most) = radii.iter().fold((f64::INFINITY, 0.0_f64), |(l, m), r| (l.min(*r), m.max(*r)));
+    println!("radii {least} to {most}");
+    assert!(most - least < 2e-3, "{least} to {most}");
+}
+
+#[test]
+fn a_normal_tilts_the_top_of_a_raised_disc_and_can_be_set_free() {
+    let mut bench = Bench::with(Example::RaisedDisc);
+    bench.rest(600);
+    let (calm, document) = (places(&bench), bench.document.clone());
+    let point = *bench.document().points.keys().next_back().unwrap();
+    let normal = Some(dvec3(0.5, 0.0, 1.0));
+    bench.edit(Edit::Normal { surface: SURFACE, point, normal });
+    bench.rest(600);
+    let moved = places(&bench).iter().zip(&calm).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
+    assert!(moved > 0.01, "{moved}");
+    let text = to_text(&bench.document());
+    assert_eq!(from_text(&text).unwrap(), bench.document());
+    // Either sense and any length are the same plane.
+    let energy = bench.rest(1);
+    bench.edit(Edit::Normal { surface: SURFACE, point, normal: Some(dvec3(-2.0, 0.0, -4.0)) });
+    let same = bench.rest(600);
+    assert!((energy / same - 1.0).abs() < 1e-4, "{energy} and {same}");
+    bench.edit(Edit::Normal { surface: SURFACE, point, normal: None });
+    bench.rest(600);
+    assert_eq!(bench.document().surfaces, document_of(&document).surfaces);
+    // The control goes, and what was prescribed at it.
+    bench.edit(Edit::Normal { surface: SURFACE, point, normal });
+    bench.edit(Edit::Release { point });
+    assert!(bench.document().surfaces[&SURFACE].normals.is_empty());
+}
+
+fn document_of(text: &str) -> Document {
+    from_text(text).unwrap()
+}
+
+#[test]
+fn what_cannot_be_is_refused_and_changes_nothing() {
+    let mut bench = Bench::with(Example::Disc);
+    bench.rest(300);
+    let rim = bench.document().curves[&RIM].through.clone();
+    let at = bench.document().points[&rim[0]];
+    let along = dvec3(-at.y, at.x, 0.0);
+    let normal = |point, normal| Edit::Normal { surface: SURFACE, point, normal: Some(normal) };
+    let cross = |point, cross| {
+        let leave = Some(Leave::Cross([(point, cross)].into()));
+        Edit::Ribbon { surface: SURFACE, curve: RIM, leave }
+    };
+    let angle = |angle| Edit::Ribbon { surface: SURFACE, curve: RIM, leave: Some(Leave::Angle(angle)) };
+    let nothing = Edit::Ribbon { surface: SURFACE, curve: RIM, leave: Some(Leave::Cross([].into())) };
+    for (edit, reason) in [
+        (normal(rim[0], along), "runs along"),
+        (normal(rim[0], DVec3::ZERO), "no direction"),
+        (normal(rim[0], DVec3::NAN), "must be numbers"),
+        (normal(PointId(99), DVec3::Z), "does not exist"),
+        (cross(rim[0], along), "runs along"),
+        (cross(rim[0], DVec3::ZERO), "no direction"),
+        (cross(rim[0], DVec3::X * f64::INFINITY), "must be numbers"),
+        (cross(PointId(99), DVec3::Z), "does not pass"),
+        (nothing, "no direction anywhere"),
+        (angle(f64::NAN), "between -180"),
+        (angle(4.0), "between -180"),
+        (
+            Edit::Ribbon { surface: SurfaceId(7), curve: RIM, leave: Some(Leave::Angle(0.0)) },
+            "does not exist",
+        ),
+        (
+            Edit::Ribbon { surface: SURFACE, curve: CurveId(7), leave: Some(Leave::Angle(0.0)) },
+            "does not lie",
+        ),
+    ] {
+        let before = bench.document.clone();
+        let refused = bench.send(Request::Edit(edit.clone())).refused;
+        let text = refused.map(|refusal| refusal.reason).unwrap_or_default();
+        assert!(text.contains(reason), "{edit:?}: {text}");
+        assert_eq!(bench.document, before);
+    }
+    bench.edit(Edit::Objective { of: ObjectiveOf::Document, objective: Some(Objective::Membrane) });
+    let refused = bench.send(Request::Edit(angle(0.5))).refused.unwrap();
+    assert!(refused.reason.contains("membrane"), "{}", refused.reason);
+}
+
+#[test]
+fn documents_with_planes_without_sense_open_and_come_to_rest() {
+    let mut document = ductile_modeler::example(Example::RaisedDisc);
+    let rim = document.curves[&RIM].through.clone();
+    let at = |point: &PointId| document.points[point];
+    let along = |point: &PointId| dvec3(-at(point).y, at(point).x, 0.0);
+    let cross =
+        [(rim[0], along(&rim[0])), (rim[1], DVec3::Z), (rim[2], at(&rim[2])), (rim[3], -at(&rim[3]))].into();
+    let normals =
+        [(rim[0], along(&rim[0]) * 1e6), (PointId(5), DVec3::X * 1e-9), (PointId(6), -DVec3::Z)].into();
+    let surface = document.surfaces.get_mut(&SURFACE).unwrap();
+    (surface.ribbons, surface.normals) = ([(RIM, Ribbon { cross })].into(), normals);
+    let mut bench = Bench::new();
+    bench.accept(Request::OpenText { text: to_text(&document) });
+    let energy = bench.rest(600);
+    assert!(energy.is_finite());
+    assert!(places(&bench).iter().all(|p| p.is_finite() && p.length() < 20.0));
+}
