@@ -213,8 +213,11 @@ fn storm(shape: &Workload, handle: u32, size: f64, seed: u64) -> f64 {
     let home = positions[handle as usize];
     let mut stream = Stream::new(seed);
     for jump in 0..=30 {
-        let target =
-            if jump == 30 { home } else { shape.positions[handle as usize] + size * stream.vector() };
+        let anywhere = stream.vector();
+        // No farther than `size`, as in the recipe: on a connectivity that stays as it is, some storms of wilder jumps
+        // end in valleys of crumpled shapes, out of which no descent leads.
+        let leap = size * anywhere / anywhere.length().max(1.0);
+        let target = if jump == 30 { home } else { shape.positions[handle as usize] + leap };
         for _ in 0..8 {
             let rest = target - positions[handle as usize];
             solver.predict(&mut positions, &[(handle, rest)]).unwrap();
@@ -240,15 +243,15 @@ fn storm(shape: &Workload, handle: u32, size: f64, seed: u64) -> f64 {
 
 #[test]
 fn storms_recover() {
-    for seed in 0..3 {
+    for seed in 0..12 {
         let mut disc = workload::disc(10);
         disc.positions[0].z = 0.3;
         let gain = storm(&disc, 0, 1.0, seed);
-        assert!(gain.abs() < 0.05, "disc, seed {seed}: {gain}");
+        assert!(gain.abs() < 0.03, "disc, seed {seed}: {gain}");
         let mut sphere = workload::sphere(3);
         let pins = workload::pin_axes(&mut sphere);
         let gain = storm(&sphere, pins[4], 0.7, seed);
-        assert!(gain.abs() < 0.3, "sphere, seed {seed}: {gain}");
+        assert!(gain.abs() < 0.03, "sphere, seed {seed}: {gain}");
     }
 }
 
