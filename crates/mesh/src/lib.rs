@@ -44,6 +44,6 @@ pub use label::{Labels, components, regions};
 pub use measure::{Summary, boundary_loops, quality, summary};
 pub use orient::{is_orientable, propagate_orientation, reverse, reverse_face};
 pub use source::SourceTag;
-pub use surgery::{Blocked, Cut, CutError, GlueError, Seam};
+pub use surgery::{Blocked, CrossingVertex, Cut, CutError, GlueError, InsertError, Seam};
 pub use topology::Mesh;
 pub use walk::Wedge;

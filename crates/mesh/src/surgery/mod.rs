@@ -7,15 +7,18 @@
 //! Check and act are a pair: `can_x` says whether and why not; `x` asserts in debug that it may.
 //! Elements that survive keep their handles. New faces are wound like the ones they replace.
 
+mod channel;
 mod collapse;
 mod cut;
 mod delete;
 mod flip;
 mod glue;
+mod insert;
 mod split;
 
 pub use cut::{Cut, CutError};
 pub use glue::{GlueError, Seam};
+pub use insert::{CrossingVertex, InsertError};
 
 use thiserror::Error;
 

@@ -1,0 +1,126 @@
+//! The channel: the triangles that a curve between two vertices would run through, and the edges across it.
+//!
+//! Source: Welch 1995, §4.2.3 (edge insertion). The channel has no vertex inside; positions only guide the search, which takes
+//! the shortest way over the places of the edges nearest to the straight line. Where curves may not be crossed it goes
+//! round them.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use glam::DVec3;
+
+use crate::{EdgeId, HalfedgeId, Mesh, VertexId};
+
+/// What a channel may cross.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Crossing {
+    /// Edges of no curve.
+    FreeEdges,
+    /// Curves too.
+    Curves,
+}
+
+/// Crossings nearer to an end of an edge than this would leave a needle.
+const MARGIN: f64 = 0.05;
+
+/// Total order of lengths: NaN comes last.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Length(f64);
+
+impl Eq for Length {}
+
+impl Ord for Length {
+    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
+        self.0.total_cmp(&other.0)
+    }
+}
+
+impl PartialOrd for Length {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+/// How a side was entered: the way so far, and the side before it.
+#[derive(Clone, Copy, Debug)]
+struct Entered {
+    length: f64,
+    after: Option<HalfedgeId>,
+}
+
+/// The edges across the channel from `from` to `to`, in order; `None` where there is no way. Empty for neighbours.
+pub(super) fn channel(
+    mesh: &Mesh,
+    positions: &[DVec3],
+    from: VertexId,
+    to: VertexId,
+    crossing: Crossing,
+) -> Option<Vec<EdgeId>> {
+    if mesh.are_neighbours(from, to) {
+        return Some(Vec::new());
+    }
+    let place = |v: VertexId| positions.get(v.index()).copied().unwrap_or(DVec3::ZERO);
+    let gate = |e: EdgeId| {
+        let [a, b] = mesh.edge_vertices(e).map(place);
+        a.lerp(b, crossing_place(place(from), place(to), a, b))
+    };
+    // The side beyond a side, if one may go there; over edges at either end one would only go round it.
+    let beyond = |h: HalfedgeId| {
+        let edge = mesh.edge_of(h);
+        let is_open = !mesh.edge_vertices(edge).iter().any(|&v| v == from || v == to)
+            && (crossing == Crossing::Curves || !mesh.is_source_edge(edge));
+        mesh.twin(h).filter(|_| is_open)
+    };
+    let mut entered: Vec<Option<Entered>> = vec![None; 3 * mesh.face_slots()];
+    let mut ahead = BinaryHeap::new();
+    let mut enter =
+        |side: HalfedgeId, after: Option<HalfedgeId>, at: DVec3, before: f64, ahead: &mut BinaryHeap<_>| {
+            let here = gate(mesh.edge_of(side));
+            let mut length = before + at.distance(here);
+            if mesh.apex(side) == to {
+                length += here.distance(place(to));
+            }
+            let old = &mut entered[side.index()];
+            if old.is_none_or(|old| length.total_cmp(&old.length).is_lt()) {
+                *old = Some(Entered { length, after });
+                ahead.push(Reverse((Length(length), side)));
+            }
+        };
+    for wedge in mesh.wedges(from) {
+        if let Some(side) = beyond(wedge.corner.next()) {
+            enter(side, None, place(from), 0.0, &mut ahead);
+        }
+    }
+    while let Some(Reverse((Length(length), side))) = ahead.pop() {
+        if mesh.apex(side) == to {
+            return Some(trace(mesh, &entered, side));
+        }
+        let at = gate(mesh.edge_of(side));
+        for next in [side.next(), side.prev()] {
+            if let Some(far) = beyond(next) {
+                enter(far, Some(side), at, length, &mut ahead);
+            }
+        }
+    }
+    None
+}
+
+/// The edges by which a side was reached, its own at the end.
+fn trace(mesh: &Mesh, entered: &[Option<Entered>], last: HalfedgeId) -> Vec<EdgeId> {
+    let mut edges = Vec::new();
+    let mut side = Some(last);
+    while let Some(here) = side {
+        edges.push(mesh.edge_of(here));
+        side = entered[here.index()].and_then(|entered| entered.after);
+    }
+    edges.reverse();
+    edges
+}
+
+/// Where the line from `p` to `q` comes nearest to the edge from `a` to `b`, as a share of that; within the margins.
+pub(super) fn crossing_place(p: DVec3, q: DVec3, a: DVec3, b: DVec3) -> f64 {
+    let (line, edge, between) = (q - p, b - a, a - p);
+    let (l, m, e) = (line.length_squared(), line.dot(edge), edge.length_squared());
+    let place = (line.dot(between) * m - edge.dot(between) * l) / (l * e - m * m);
+    if place.is_finite() { place.clamp(MARGIN, 1.0 - MARGIN) } else { 0.5 }
+}
