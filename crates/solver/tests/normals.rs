@@ -4,11 +4,14 @@
 //! rim clamped `∫ K` is fixed (Gauss, Bonnet), and what remains, `4 ∫ (H² - K)`, is zero on a sphere.
 
 #![allow(clippy::unwrap_used, reason = "a failing test should stop where it fails")]
+#![allow(clippy::print_stdout, reason = "the figures of the documentation are read off here")]
 
 use ductile_solver::workload::{self, Stream, Workload};
 use ductile_solver::{Budget, Objective, Objectives, SolverError, StepReport, SurfaceSolver};
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
 
 const BENDING: [Objective; 3] = [Objective::ThinPlate, Objective::Fair, Objective::Neutral];
 

@@ -5,7 +5,7 @@
 #![allow(clippy::unwrap_used, reason = "a failing test should stop where it fails")]
 
 use acceptance::Bench;
-use ductile_spec::{Edit, Example, GrabTarget, Request};
+use ductile_spec::{Edit, Example, GrabTarget, Request, SpacingOf};
 use glam::DVec3;
 use wasm_bindgen_test::console_log;
 use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -17,7 +17,7 @@ const PAGE: usize = 65_536;
 #[test]
 fn a_model_of_ten_thousand_nodes_is_dragged_and_undone_within_48_megabytes() {
     let mut bench = Bench::with(Example::RaisedDisc);
-    bench.edit(Edit::Spacing { spacing: Some(0.024) });
+    bench.edit(Edit::Spacing { of: SpacingOf::Document, spacing: Some(0.024) });
     bench.rest(400);
     let raised = *bench.document().points.iter().find(|(_, at)| at.z > 0.1).unwrap().0;
     let home = bench.document().points[&raised];
