@@ -17,6 +17,7 @@
 //! # Ok::<(), ductile_mesh::BuildError>(())
 //! ```
 
+mod assemble;
 mod build;
 mod check;
 mod dehydrate;
@@ -36,6 +37,7 @@ mod surgery;
 mod topology;
 mod walk;
 
+pub use assemble::{Appended, Extracted};
 pub use build::BuildError;
 pub use check::{Defect, validate, validate_curves};
 pub use dehydrate::{Dehydrated, dehydrate};
