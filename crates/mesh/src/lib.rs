@@ -28,6 +28,7 @@ pub mod io;
 mod label;
 pub mod measure;
 mod orient;
+mod place;
 pub mod primitive;
 #[cfg(test)]
 mod property_test;
@@ -45,7 +46,10 @@ pub use handle::{EdgeId, FaceId, HalfedgeId, VertexId};
 pub use label::{Labels, components, regions};
 pub use measure::{Summary, boundary_loops, quality, summary};
 pub use orient::{is_orientable, propagate_orientation, reverse, reverse_face};
+pub use place::{Place, nearest_place};
 pub use source::SourceTag;
-pub use surgery::{Blocked, CrossingVertex, Cut, CutError, GlueError, InsertError, Seam};
+pub use surgery::{
+    Blocked, CrossingVertex, Cut, CutError, GlueError, InsertError, Meeting, Path, PathError, Seam,
+};
 pub use topology::Mesh;
 pub use walk::Wedge;

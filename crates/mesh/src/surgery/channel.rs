@@ -1,8 +1,7 @@
 //! The channel: the triangles that a curve between two vertices would run through, and the edges across it.
 //!
 //! Source: Welch 1995, §4.2.3 (edge insertion). The channel has no vertex inside; positions only guide the search, which takes
-//! the shortest way over the places of the edges nearest to the straight line. Where curves may not be crossed it goes
-//! round them.
+//! the shortest way over places on the edges that a [`Line`] names. Where curves may not be crossed it goes round them.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -41,6 +40,53 @@ impl PartialOrd for Length {
     }
 }
 
+/// The straight line between two vertices, and which place on an edge it is to cross.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Line {
+    from: DVec3,
+    to: DVec3,
+    /// The normal of the plane that the line follows over the surface; zero where it is on its own.
+    across: DVec3,
+}
+
+impl Line {
+    /// The line that crosses edges where it comes nearest to them.
+    pub(super) const fn straight(from: DVec3, to: DVec3) -> Self {
+        Self { from, to, across: DVec3::ZERO }
+    }
+
+    /// The line that crosses edges in the plane through it which stands on the surface: over a sphere the great circle.
+    ///
+    /// Of the normals at its ends only the directions count. The sum or the difference stands on the surface between them,
+    /// whichever is more upright on the line.
+    pub(super) fn upright(from: DVec3, to: DVec3, normals: [DVec3; 2]) -> Self {
+        let way = to - from;
+        let [sum, difference] = [normals[0] + normals[1], normals[0] - normals[1]].map(|n| way.cross(n));
+        let across = if difference.length_squared() > sum.length_squared() { difference } else { sum };
+        // Where line and normals run alike, no plane stands out.
+        let is_plane = across.length_squared() > 1e-4 * way.length_squared();
+        Self { from, to, across: if is_plane { across } else { DVec3::ZERO } }
+    }
+
+    /// Where the line crosses that through `a` and `b`, as a share of the way from `a` to `b`; one half where that is no
+    /// number.
+    pub(super) fn share(&self, a: DVec3, b: DVec3) -> f64 {
+        let share = if self.across == DVec3::ZERO {
+            let (line, edge, between) = (self.to - self.from, b - a, a - self.from);
+            let (l, m, e) = (line.length_squared(), line.dot(edge), edge.length_squared());
+            (line.dot(between) * m - edge.dot(between) * l) / (l * e - m * m)
+        } else {
+            self.across.dot(self.from - a) / self.across.dot(b - a)
+        };
+        if share.is_finite() { share } else { 0.5 }
+    }
+
+    /// [`Line::share`] within the margins.
+    pub(super) fn crossing(&self, a: DVec3, b: DVec3) -> f64 {
+        self.share(a, b).clamp(MARGIN, 1.0 - MARGIN)
+    }
+}
+
 /// How a side was entered: the way so far, and the side before it.
 #[derive(Clone, Copy, Debug)]
 struct Entered {
@@ -54,6 +100,7 @@ pub(super) fn channel(
     positions: &[DVec3],
     from: VertexId,
     to: VertexId,
+    line: Line,
     crossing: Crossing,
 ) -> Option<Vec<EdgeId>> {
     if mesh.are_neighbours(from, to) {
@@ -62,7 +109,7 @@ pub(super) fn channel(
     let place = |v: VertexId| positions.get(v.index()).copied().unwrap_or(DVec3::ZERO);
     let gate = |e: EdgeId| {
         let [a, b] = mesh.edge_vertices(e).map(place);
-        a.lerp(b, crossing_place(place(from), place(to), a, b))
+        a.lerp(b, line.crossing(a, b))
     };
     // The side beyond a side, if one may go there; over edges at either end one would only go round it.
     let beyond = |h: HalfedgeId| {
@@ -115,12 +162,4 @@ fn trace(mesh: &Mesh, entered: &[Option<Entered>], last: HalfedgeId) -> Vec<Edge
     }
     edges.reverse();
     edges
-}
-
-/// Where the line from `p` to `q` comes nearest to the edge from `a` to `b`, as a share of that; within the margins.
-pub(super) fn crossing_place(p: DVec3, q: DVec3, a: DVec3, b: DVec3) -> f64 {
-    let (line, edge, between) = (q - p, b - a, a - p);
-    let (l, m, e) = (line.length_squared(), line.dot(edge), edge.length_squared());
-    let place = (line.dot(between) * m - edge.dot(between) * l) / (l * e - m * m);
-    if place.is_finite() { place.clamp(MARGIN, 1.0 - MARGIN) } else { 0.5 }
 }

@@ -7,7 +7,7 @@
 use glam::DVec3;
 use thiserror::Error;
 
-use super::channel::{Crossing, channel, crossing_place};
+use super::channel::{Crossing, Line, channel};
 use crate::{EdgeId, Mesh, VertexId};
 
 /// Why two vertices cannot be joined.
@@ -111,10 +111,11 @@ impl Mesh {
     ) -> Result<Vec<CrossingVertex>, InsertError> {
         let across = self.way(from, to, positions, Crossing::Curves)?;
         let at = |v: VertexId| positions.get(v.index()).copied().unwrap_or(DVec3::ZERO);
+        let line = Line::straight(at(from), at(to));
         let mut made = Vec::with_capacity(across.len());
         for edge in across {
             let ends = self.edge_vertices(edge);
-            let place = crossing_place(at(from), at(to), at(ends[0]), at(ends[1]));
+            let place = line.crossing(at(ends[0]), at(ends[1]));
             made.push(CrossingVertex { vertex: self.split_edge(edge), ends, place });
         }
         Ok(made)
@@ -133,7 +134,9 @@ impl Mesh {
         if from == to {
             return Err(InsertError::Same(from));
         }
-        channel(self, positions, from, to, crossing).ok_or(InsertError::NoWay(from, to))
+        let at = |v: VertexId| positions.get(v.index()).copied().unwrap_or(DVec3::ZERO);
+        let line = Line::straight(at(from), at(to));
+        channel(self, positions, from, to, line, crossing).ok_or(InsertError::NoWay(from, to))
     }
 
     /// The vertices on either bank of a channel.

@@ -14,11 +14,14 @@ mod delete;
 mod flip;
 mod glue;
 mod insert;
+mod path;
+mod sites;
 mod split;
 
 pub use cut::{Cut, CutError};
 pub use glue::{GlueError, Seam};
 pub use insert::{CrossingVertex, InsertError};
+pub use path::{Meeting, Path, PathError};
 
 use thiserror::Error;
 
