@@ -1,6 +1,6 @@
 //! Why the modeler refuses: typed, with the offending thing in the message, in words for the designer.
 
-use ductile_mesh::BuildError;
+use ductile_mesh::{BuildError, GlueError};
 use ductile_solver::SolverError;
 use ductile_spec::{CurveId, Defect, LinkError, PointId, SurfaceId, TextError};
 use thiserror::Error;
@@ -162,6 +162,54 @@ pub enum ModelError {
         /// The surface.
         surface: SurfaceId,
     },
+    /// A region without a border towards other regions cannot be cut out.
+    #[error("{0} is a single region: draw a closed curve on it first, and cut along that")]
+    NothingAround(SurfaceId),
+    /// The curve lies in no surface.
+    #[error("{0} lies in no surface")]
+    InNoSurface(CurveId),
+    /// There is nothing beyond a rim from which it could be cut.
+    #[error("{curve} is a rim of {surface} already: there is nothing beyond it to cut off")]
+    OnRim {
+        /// The curve.
+        curve: CurveId,
+        /// The surface.
+        surface: SurfaceId,
+    },
+    /// An open curve of a single edge cannot be opened.
+    #[error("a slit in {0} would be too short to open")]
+    ShortSlit(SurfaceId),
+    /// Along a one-sided curve there is only one bank.
+    #[error(
+        "{0} runs round a Möbius strip: the region along it has one side, so it cannot be creased. It can be split"
+    )]
+    OneSided(CurveId),
+    /// A piece would hang together by a single point.
+    #[error("{0} would hang together by a single point")]
+    Pinched(SurfaceId),
+    /// There is no crease at the curve.
+    #[error("no two rims meet at {0}: there is no crease to smooth")]
+    NoCrease(CurveId),
+    /// Three surfaces or more meet at the curve.
+    #[error("{count} surfaces meet at {curve}: only two can run smoothly into one another")]
+    ManyRims {
+        /// The curve.
+        curve: CurveId,
+        /// How many there are.
+        count: usize,
+    },
+    /// Two rims cannot be glued.
+    #[error("the rims cannot be joined: {0}")]
+    Unjoinable(GlueError),
+    /// A size is not a usable number.
+    #[error("a radius must be a positive number up to 1e6")]
+    BadRadius,
+    /// A curve has no extent that could grow.
+    #[error("the points of {0} lie on one another: there is nothing to expand")]
+    NothingToExpand(CurveId),
+    /// One curve closes and the other does not.
+    #[error("{0} and {1} are unlike: a sweep needs two closed curves, or two open ones")]
+    UnlikeCurves(CurveId, CurveId),
     /// Nothing is held.
     #[error("nothing is held")]
     NothingHeld,

@@ -24,6 +24,7 @@ mod relax;
 mod shadow;
 mod shape;
 mod skeleton;
+mod surgery;
 
 pub use error::ModelError;
 pub use example::example;

@@ -96,10 +96,19 @@ fn starts(mesh: &Mesh, embedded: &EmbeddedCurve) -> Vec<PointId> {
     embedded.vertices.iter().filter_map(point).collect()
 }
 
-/// The face beside the first edge of a stretch.
+/// The face beside the first edge of a stretch. A curve that a surface follows on two rims has one on each.
 pub(crate) fn face_beside(shape: &SurfaceShape, curve: CurveId, from: PointId, side: Side) -> Option<FaceId> {
+    let lines = shape.embeddings.iter().filter(|e| e.curve == curve);
+    lines.into_iter().find_map(|embedded| face_beside_line(shape, embedded, from, side))
+}
+
+fn face_beside_line(
+    shape: &SurfaceShape,
+    embedded: &EmbeddedCurve,
+    from: PointId,
+    side: Side,
+) -> Option<FaceId> {
     let mesh = &shape.mesh;
-    let embedded = shape.embeddings.iter().find(|e| e.curve == curve)?;
     let is_start = |v: &&VertexId| mesh.vertex_source(**v).is_some_and(|tag| tag.0 == from.0);
     let start = *embedded.vertices.iter().find(is_start)?;
     let place = embedded.vertices.iter().position(|v| *v == start)?;

@@ -30,29 +30,32 @@ pub(crate) fn sheet_skeleton(curve: CurveId, boundary: &[(PointId, DVec3)]) -> S
     }
 }
 
-/// The skeleton of a cylinder between two closed curves with the given control points.
+/// The skeleton of a cylinder between two closed curves with the given control points, or of a strip between two open ones.
+///
+/// The second may begin anywhere (if it is closed) and run either way: the correspondence with the shortest edges is taken,
+/// or the shortest of those the other way round.
 pub(crate) fn sweep_skeleton(
     from: (CurveId, &[(PointId, DVec3)]),
     to: (CurveId, &[(PointId, DVec3)]),
+    closed: bool,
+    other_way: bool,
 ) -> Skeleton {
     let low: Vec<DVec3> = from.1.iter().map(|(_, at)| *at).collect();
     let high: Vec<DVec3> = to.1.iter().map(|(_, at)| *at).collect();
     let centre = |points: &[DVec3]| points.iter().sum::<DVec3>() / points.len().max(1) as f64;
-    let shift = centre(&low) - centre(&high);
-    // Curves may be wound against each other and start anywhere: try every correspondence.
-    let mut best: Option<(f64, Vec<[u32; 3]>)> = None;
-    for reversed in [false, true] {
-        for start in 0..high.len() {
-            let (cost, triangles) = zip(&low, &high, shift, start, reversed);
-            if best.as_ref().is_none_or(|(least, _)| cost < *least) {
-                best = Some((cost, triangles));
-            }
-        }
-    }
+    let shift = if closed { centre(&low) - centre(&high) } else { DVec3::ZERO };
+    let best = |reversed: bool| {
+        let starts = if closed { high.len() } else { 1 };
+        let all = (0..starts).map(|start| zip((&low, &high), closed, shift, (start, reversed)));
+        all.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_default()
+    };
+    let (plain, turned) = (best(false), best(true));
+    let is_plain = (plain.0 <= turned.0) != other_way;
+    let (_, triangles) = if is_plain { plain } else { turned };
     let count = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
     Skeleton {
         vertices: from.1.iter().chain(to.1).map(|(id, _)| SkeletonVertex::Control(*id)).collect(),
-        triangles: best.map(|(_, triangles)| triangles).unwrap_or_default(),
+        triangles,
         curves: vec![
             Embedding { curve: from.0, along: indices(0, low.len()) },
             Embedding { curve: to.0, along: indices(count(low.len()), high.len()) },
@@ -162,20 +165,31 @@ fn zigzag(n: usize) -> Vec<[u32; 3]> {
     triangles
 }
 
-/// Zips two loops together, always along the shorter of the two possible edges; the second loop starts at
-/// `start` and may be run through backwards. Lengths are measured after moving the loops' centres together,
-/// so that a leaning cylinder is not twisted.
-fn zip(low: &[DVec3], high: &[DVec3], shift: DVec3, start: usize, reversed: bool) -> (f64, Vec<[u32; 3]>) {
+/// Zips two lines of points together, always along the shorter of the two possible edges; the second begins at `start` (if
+/// they are loops) and may be run through backwards. Lengths are measured after moving loops' centres together, so that a
+/// leaning cylinder is not twisted.
+fn zip(
+    (low, high): (&[DVec3], &[DVec3]),
+    closed: bool,
+    shift: DVec3,
+    (start, reversed): (usize, bool),
+) -> (f64, Vec<[u32; 3]>) {
     let (n, m) = (low.len(), high.len());
-    let there = |k: usize| if reversed { (start + m - k % m) % m } else { (start + k) % m };
+    let there = |k: usize| match (closed, reversed) {
+        (true, true) => (start + m - k % m) % m,
+        (true, false) => (start + k) % m,
+        (false, true) => m - 1 - k,
+        (false, false) => k,
+    };
     let length = |a: usize, b: usize| (low[a % n] - high[there(b)] - shift).length_squared();
     let name = |a: usize| u32::try_from(a % n).unwrap_or(u32::MAX);
     let other = |b: usize| u32::try_from(n + there(b)).unwrap_or(u32::MAX);
+    let (most_low, most_high) = if closed { (n, m) } else { (n - 1, m - 1) };
     let (mut a, mut b) = (0, 0);
     let mut cost = length(0, 0);
     let mut triangles = Vec::with_capacity(n + m);
-    while a < n || b < m {
-        let step_low = b >= m || (a < n && length(a + 1, b) <= length(a, b + 1));
+    while a < most_low || b < most_high {
+        let step_low = b >= most_high || (a < most_low && length(a + 1, b) <= length(a, b + 1));
         if step_low {
             triangles.push([name(a), name(a + 1), other(b)]);
             a += 1;
@@ -230,7 +244,12 @@ mod tests {
             assert_eq!(summary(&Mesh::from_triangles(n, &sheet.triangles).unwrap()).euler, 1);
             assert_eq!(summary(&Mesh::from_triangles(n, &zigzag(n)).unwrap()).euler, 1);
             for m in 3..9 {
-                let sweep = sweep_skeleton((CurveId(1), &polygon(n, 0.0)), (CurveId(2), &polygon(m, 1.0)));
+                let sweep = sweep_skeleton(
+                    (CurveId(1), &polygon(n, 0.0)),
+                    (CurveId(2), &polygon(m, 1.0)),
+                    true,
+                    false,
+                );
                 let summary = summary(&Mesh::from_triangles(n + m, &sweep.triangles).unwrap());
                 assert_eq!((summary.euler, summary.boundaries), (0, 2), "{n} to {m}");
             }
@@ -242,7 +261,7 @@ mod tests {
         let low = polygon(6, 0.0);
         let mut high = polygon(6, 1.0);
         high.reverse();
-        let sweep = sweep_skeleton((CurveId(1), &low), (CurveId(2), &high));
+        let sweep = sweep_skeleton((CurveId(1), &low), (CurveId(2), &high), true, false);
         let all: Vec<DVec3> = low.iter().chain(&high).map(|(_, at)| *at).collect();
         for t in &sweep.triangles {
             let [p, q, r] = t.map(|i| all[i as usize]);

@@ -3,12 +3,16 @@
 
 use crate::document::{Density, Objective};
 use crate::id::{CurveId, PointId, SurfaceId};
+use crate::surgery::{Border, Extent, On};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// An act that changes the document. Each is one step of undo; a refused one changes nothing.
+///
+/// Its name in a script is its word in lower case with hyphens: `{"s-loop": {"surface": 1, "along": [...]}}`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Edit {
     /// Places a control point in space.
     Point {
@@ -34,12 +38,89 @@ pub enum Edit {
         /// The boundary.
         boundary: CurveId,
     },
-    /// Skins the space between two closed curves: a cylinder (thesis section 7.3.2, `sweep`).
+    /// Skins the space between two closed curves, a cylinder, or between two open ones, a strip (thesis section
+    /// 7.3.2, `sweep`).
     Sweep {
         /// One end.
         from: CurveId,
         /// The other end.
         to: CurveId,
+        /// Whether the second is run through the other way than lies nearest: a twist, or a surface with one side.
+        #[serde(default)]
+        reversed: bool,
+    },
+    /// Draws a control curve on a surface (thesis section 7.3.2, `s-loop`).
+    SLoop {
+        /// Which surface.
+        surface: SurfaceId,
+        /// Places on it, in order: at least 2, or 3 for a closed curve. They become control points.
+        along: Vec<DVec3>,
+        /// Whether it closes.
+        closed: bool,
+    },
+    /// Destroys a region; the curves around it stay, as rims (thesis section 7.3.2, `burnout`).
+    Burnout {
+        /// A place in it.
+        region: On,
+    },
+    /// Cuts a surface; the curves along the cut are doubled, so that both sides are free (thesis section 7.3.2, `split`).
+    Split {
+        /// Where.
+        border: Border,
+    },
+    /// Cuts a surface, but leaves both sides on the same curves: they meet in a crease (thesis section 7.3.2, `crease`).
+    Crease {
+        /// Where.
+        border: Border,
+    },
+    /// The inverse: the two surfaces at a curve become one that runs smoothly through it (thesis section 7.3.2, `smooth`).
+    Smooth {
+        /// The curve on the rims of both.
+        curve: CurveId,
+    },
+    /// Joins two rims: laid on one another, or with a band between (thesis section 7.3.5).
+    Glue {
+        /// A place on the one; it stays where it is.
+        from: On,
+        /// A place on the other.
+        to: On,
+        /// Whether a band is made between them, instead of laying the second on the first.
+        skirt: bool,
+        /// Whether they are joined the other way round than lies nearest, which may make a surface with one side.
+        #[serde(default)]
+        reversed: bool,
+    },
+    /// Makes a tube between two places, of two surfaces or of one: a hole in each, and a band between (thesis section 7.4.3).
+    Merge {
+        /// One place.
+        from: On,
+        /// The other.
+        to: On,
+        /// Radius of the holes, in model units.
+        radius: f64,
+        /// Whether their rims stay as control curves, or are freed.
+        keep: bool,
+    },
+    /// Cuts two surfaces along their intersection and joins them there (thesis sections 3.3.1 and 7.4).
+    Trim {
+        /// A place on the part of the first that stays.
+        first: On,
+        /// A place on the part of the second that stays.
+        second: On,
+        /// Whether they join smoothly there, instead of in a crease.
+        smooth: bool,
+    },
+    /// Grows or shrinks the loop of a closed curve about its centre.
+    Expand {
+        /// Which curve.
+        curve: CurveId,
+        /// To what size.
+        to: Extent,
+    },
+    /// Turns a surface inside out: its outside becomes its inside.
+    Reverse {
+        /// Which surface.
+        surface: SurfaceId,
     },
     /// Makes a control point on a surface, at the place nearest to a given one.
     Pin {
@@ -140,6 +221,16 @@ impl Edit {
             Self::Curve { .. } => "Curve",
             Self::Sheet { .. } => "Sheet",
             Self::Sweep { .. } => "Sweep",
+            Self::SLoop { .. } => "Draw",
+            Self::Burnout { .. } => "Burn out",
+            Self::Split { .. } => "Split",
+            Self::Crease { .. } => "Crease",
+            Self::Smooth { .. } => "Smooth",
+            Self::Glue { .. } => "Glue",
+            Self::Merge { .. } => "Merge",
+            Self::Trim { .. } => "Trim",
+            Self::Expand { .. } => "Expand",
+            Self::Reverse { .. } => "Reverse",
             Self::Pin { .. } | Self::Insert { .. } => "Control point",
             Self::Release { .. } => "Release",
             Self::DeletePoint { .. } | Self::DeleteCurve { .. } | Self::DeleteSurface { .. } => "Delete",
@@ -156,6 +247,7 @@ impl Edit {
 
 /// How a surface leaves a curve.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Leave {
     /// At an angle in radians from the plane in which the curve lies (as nearly as it lies in one): 0 goes on inside
     /// the curve, in that plane, a positive one rises to the side of the surface's normal. Between -π and π.
@@ -166,6 +258,7 @@ pub enum Leave {
 
 /// What an objective is chosen for.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum ObjectiveOf {
     /// Everything that has no choice of its own.
     Document,
@@ -184,6 +277,7 @@ pub enum ObjectiveOf {
 
 /// What an edge length is set for.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum SpacingOf {
     /// Everything that has none of its own.
     Document,
@@ -200,6 +294,7 @@ pub enum SpacingOf {
 
 /// What a new curve passes through.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Through {
     /// A control point that is there.
     Point(PointId),

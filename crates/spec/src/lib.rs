@@ -12,6 +12,7 @@ mod frame;
 mod id;
 mod protocol;
 mod share;
+mod surgery;
 mod text;
 mod validate;
 
@@ -30,6 +31,7 @@ pub use protocol::{
     Committed, ExportFormat, Exported, Grabbed, Refusal, Remembered, Reply, Request, Resume, Step, TRAP,
 };
 pub use share::{FRAGMENT_KEY, LinkError, MAX_LINK_BYTES, from_fragment, to_fragment};
+pub use surgery::{Border, Extent, On};
 pub use text::{FORMAT_VERSION, MAX_TEXT_BYTES, TextError, from_text, to_compact_text, to_text};
 pub use validate::Defect;
 

@@ -256,7 +256,8 @@ fn no_direction(direction: DVec3) -> Option<&'static str> {
 fn validate_surface(id: SurfaceId, surface: &Surface, document: &Document) -> Result<(), Defect> {
     spacing(&id.to_string(), surface.spacing)?;
     let skeleton = &surface.skeleton;
-    let mut seen = BTreeSet::new();
+    let on_curves: BTreeSet<u32> = skeleton.curves.iter().flat_map(|e| e.along.iter().copied()).collect();
+    let mut seen = BTreeMap::new();
     for (index, vertex) in skeleton.vertices.iter().enumerate() {
         match vertex {
             SkeletonVertex::Free(at) => coordinate(&format!("{id}, vertex {index}"), *at)?,
@@ -265,7 +266,12 @@ fn validate_surface(id: SurfaceId, surface: &Surface, document: &Document) -> Re
                 if !document.points.contains_key(point) {
                     return Err(refuse("does not exist"));
                 }
-                if !seen.insert(*point) {
+                // A curve on two rims of a surface has its points on both.
+                let is_on_curve =
+                    |index: usize| on_curves.contains(&u32::try_from(index).unwrap_or(u32::MAX));
+                if let Some(other) = seen.insert(*point, index)
+                    && !(is_on_curve(index) && is_on_curve(other))
+                {
                     return Err(refuse("is already another vertex"));
                 }
             }

@@ -362,7 +362,7 @@ impl Toolbox {
             Some(from) if from == curve => say("A sweep needs two different curves."),
             Some(from) => {
                 self.from = None;
-                vec![Act::Edit(Edit::Sweep { from, to: curve })]
+                vec![Act::Edit(Edit::Sweep { from, to: curve, reversed: false })]
             }
         }
     }

@@ -1,9 +1,12 @@
 //! The acts of a designer, one file each. An act changes document and shapes together; when it fails the
 //! caller throws the changed model away and keeps the one before.
 
+mod burnout;
+mod crease;
 mod curve;
 mod delete;
 mod density;
+mod expand;
 mod insert;
 mod normal;
 mod objective;
@@ -11,16 +14,20 @@ mod pin;
 mod point;
 mod region;
 mod release;
+mod reverse;
 mod ribbon;
 mod sheet;
 mod slide;
+mod smooth;
 mod spacing;
+mod split;
 mod sweep;
 mod tangent;
 
 use crate::error::ModelError;
 use crate::model::Model;
 use crate::relax::Relaxer;
+use crate::shape::SurfaceShape;
 use ductile_spec::{Edit, MAX_COORDINATE, PointId, SurfaceId};
 use glam::DVec3;
 use std::sync::Arc;
@@ -47,7 +54,16 @@ fn act(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result<(), ModelErr
         Edit::Move { point, to } => point::shift(model, *point, *to),
         Edit::Curve { through, closed } => curve::curve(model, through, *closed),
         Edit::Sheet { boundary } => sheet::sheet(model, *boundary),
-        Edit::Sweep { from, to } => sweep::sweep(model, *from, *to),
+        Edit::Sweep { from, to, reversed } => sweep::sweep(model, *from, *to, *reversed),
+        Edit::Burnout { region } => burnout::burnout(model, *region),
+        Edit::Split { border } => split::split(model, *border),
+        Edit::Crease { border } => crease::crease(model, *border),
+        Edit::Smooth { curve } => smooth::smooth(model, *curve),
+        Edit::Expand { curve, to } => expand::expand(model, *curve, *to),
+        Edit::Reverse { surface } => reverse::reverse(model, *surface),
+        Edit::SLoop { .. } | Edit::Glue { .. } | Edit::Merge { .. } | Edit::Trim { .. } => {
+            Err(ModelError::NothingHeld)
+        }
         Edit::Pin { surface, at } => pin(model, relaxer, *surface, *at).map(drop),
         Edit::Insert { curve, at } => insert(model, *curve, *at).map(drop),
         Edit::Release { point } => release::release(model, *point),
@@ -89,6 +105,16 @@ pub(crate) fn refresh_skeleton(model: &mut Model, id: SurfaceId) {
     let skeleton = crate::skeleton::skeleton_of(model, &shape);
     if let Some(surface) = model.document_mut().surfaces.get_mut(&id) {
         surface.skeleton = skeleton;
+    }
+}
+
+/// Removes the control points of a surface as it was that nothing uses any more.
+pub(crate) fn forget_unused_points(model: &mut Model, before: &SurfaceShape) {
+    let points = before.mesh.vertices().filter_map(|v| before.mesh.vertex_source(v));
+    for point in points.map(|tag| PointId(tag.0)).collect::<Vec<_>>() {
+        if is_unused(model, point) {
+            model.document_mut().points.remove(&point);
+        }
     }
 }
 

@@ -1,0 +1,10 @@
+//! Surgery on shapes: what the acts have in common that cut surfaces or join them (thesis sections 4.2 and 7.3.2).
+//!
+//! The mesh is cut or glued first, as `ductile_mesh` does it, and everything else is found again on the new mesh: which
+//! stretches of which curves are still there ([`runs`]), which pieces have come apart and what the document said of them
+//! ([`pieces`]), which rims are laid on one another ([`joining`]).
+
+pub(crate) mod joining;
+pub(crate) mod opening;
+pub(crate) mod pieces;
+pub(crate) mod runs;

@@ -1,0 +1,461 @@
+//! Pieces: what a surface that was cut has fallen into becomes surfaces again, with curves to follow and with all that the
+//! document said of them.
+//!
+//! Both banks of a cut follow the same curve (they meet in a crease), or the second gets a copy with control points of its
+//! own. A curve that was cut across is divided where it was: the parts share no more than a point.
+
+use crate::error::ModelError;
+use crate::model::Model;
+use crate::operation::refresh_skeleton;
+use crate::region;
+use crate::shape::{CurveShape, EmbeddedCurve, Pin, SurfaceShape};
+use crate::surgery::opening::Opening;
+use crate::surgery::runs::Run;
+use ductile_mesh::{Extracted, FaceId, Labels, Mesh, SourceTag, VertexId, components, regions};
+use ductile_spec::{Curve, CurveId, PointId, Region, Surface, SurfaceId};
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+/// What the two banks of a cut follow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Banks {
+    /// The same curve.
+    Joint,
+    /// Curves of their own.
+    Apart,
+}
+
+/// A run and the curve that it follows from now on.
+struct Followed {
+    run: Run,
+    curve: CurveId,
+}
+
+/// Makes surfaces of a surface that was opened. The largest piece keeps its name; the others are given, in order.
+pub(crate) fn settle(
+    model: &mut Model,
+    id: SurfaceId,
+    mut opening: Opening,
+    banks: Banks,
+) -> Result<Vec<SurfaceId>, ModelError> {
+    let before = Arc::clone(model.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?);
+    let surface = model.document.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?.clone();
+    let told = told(&before, &surface.regions);
+    if banks == Banks::Joint
+        && let Some(run) = opening.runs.iter().find(|run| run.is_one_sided())
+    {
+        return Err(ModelError::OneSided(run.curve));
+    }
+    let twins = if banks == Banks::Apart { copy_points(model, &mut opening) } else { BTreeMap::new() };
+    let followed = match banks {
+        Banks::Joint => divide_joint(model, &opening),
+        Banks::Apart => follow_apart(model, id, &opening)?,
+    };
+    let labels = components(&opening.mesh);
+    let mut order: Vec<(usize, usize)> = labels
+        .faces(&opening.mesh)
+        .iter()
+        .enumerate()
+        .filter(|(_, faces)| faces.iter().all(|f| !opening.is_gone[f.index()]))
+        .map(|(piece, faces)| (piece, faces.len()))
+        .collect();
+    order.sort_by_key(|(piece, faces)| (core::cmp::Reverse(*faces), *piece));
+    let mut made = Vec::new();
+    model.document_mut().surfaces.remove(&id);
+    model.surfaces.remove(&id);
+    for (rank, (piece, _)) in order.into_iter().enumerate() {
+        let name = if rank == 0 { id } else { model.document.next_surface() };
+        let part = opening.mesh.extract(|f| labels.of(f) == piece).ok_or(ModelError::Pinched(id))?;
+        let shape = shape_of(model, &opening, &part, &followed, &before);
+        let mut own = Surface::new(ductile_spec::Skeleton::default());
+        (own.spacing, own.density, own.objective) = (surface.spacing, surface.density, surface.objective);
+        tell_regions(&mut own, &shape, &told, |f| part.faces[f.index()]);
+        tell_planes(&mut own, &surface, &before, &shape, &followed, &twins, &part);
+        model.document_mut().surfaces.insert(name, own);
+        model.surfaces.insert(name, Arc::new(shape));
+        if rank > 0 {
+            made.push(name);
+        }
+    }
+    forget_curves(model, &before, &followed);
+    for name in core::iter::once(id).chain(made.iter().copied()) {
+        refresh_skeleton(model, name);
+    }
+    crate::operation::forget_unused_points(model, &before);
+    model.document.validate()?;
+    Ok(made)
+}
+
+/// Gives the copies of control points identities of their own; says of which old point each is a copy.
+fn copy_points(model: &mut Model, opening: &mut Opening) -> BTreeMap<PointId, PointId> {
+    let mut twins = BTreeMap::new();
+    for (v, copy) in &opening.copies {
+        let Some(SourceTag(old)) = opening.mesh.vertex_source(*v) else { continue };
+        let Some(at) = model.document.points.get(&PointId(old)).copied() else { continue };
+        let new = model.document.next_point();
+        model.document_mut().points.insert(new, at);
+        opening.mesh.set_vertex_source(*copy, Some(SourceTag(new.0)));
+        twins.insert(new, PointId(old));
+    }
+    twins
+}
+
+/// All runs follow the curves that they are of; a curve of which some run is only a part is divided at its ends first.
+fn divide_joint(model: &mut Model, opening: &Opening) -> Vec<Followed> {
+    let mut followed = Vec::new();
+    let curves: BTreeSet<CurveId> = opening.runs.iter().map(|run| run.curve).collect();
+    for id in curves {
+        let runs: Vec<&Run> = opening.runs.iter().filter(|run| run.curve == id).collect();
+        if runs.iter().all(|run| run.is_whole()) {
+            followed.extend(runs.into_iter().map(|run| Followed { run: run.clone(), curve: id }));
+            continue;
+        }
+        let ends = runs.iter().filter(|run| !run.closed);
+        let ends: BTreeSet<usize> =
+            ends.flat_map(|run| [run.samples[0], run.samples[run.samples.len() - 1]]).collect();
+        let pieces = divide(model, id, &ends);
+        for run in runs {
+            for (curve, first, last) in &pieces {
+                followed.extend(part_of(run, *first, *last).map(|run| Followed { run, curve: *curve }));
+            }
+        }
+    }
+    followed
+}
+
+/// The part of a run from one sample to another, if it has it.
+fn part_of(run: &Run, first: usize, last: usize) -> Option<Run> {
+    let count = run.samples.len();
+    let start = run.samples.iter().position(|sample| *sample == first)?;
+    let mut part = Run { samples: Vec::new(), vertices: Vec::new(), closed: false, ..run.clone() };
+    for step in 0..=count {
+        let place = start + step;
+        if place >= count && !run.closed {
+            return None;
+        }
+        part.samples.push(run.samples[place % count]);
+        part.vertices.push(run.vertices[place % count]);
+        if step > 0 && run.samples[place % count] == last {
+            return Some(part);
+        }
+    }
+    None
+}
+
+/// Divides a curve at some of its samples, which are controls, in the document and in every surface that follows it. Gives
+/// the pieces with their first and last samples. The surface that is being cut is left to the caller.
+fn divide(model: &mut Model, id: CurveId, ends: &BTreeSet<usize>) -> Vec<(CurveId, usize, usize)> {
+    let (Some(shape), Some(curve)) =
+        (model.curves.get(&id).map(Arc::clone), model.document.curves.get(&id).cloned())
+    else {
+        return Vec::new();
+    };
+    let mut ends = ends.clone();
+    if !shape.closed {
+        ends.extend([0, shape.nodes.len() - 1]);
+    } else if ends.len() == 1 {
+        // From a point to itself is no open curve: it is divided opposite, too.
+        let controls: Vec<usize> = shape.controls.iter().map(|(sample, _)| *sample as usize).collect();
+        let here = controls.iter().position(|sample| ends.contains(sample)).unwrap_or(0);
+        ends.insert(controls[(here + controls.len() / 2) % controls.len()]);
+    }
+    let places: Vec<usize> = ends.into_iter().collect();
+    let spans = places.windows(2).map(|pair| (pair[0], pair[1]));
+    let closing = shape.closed.then(|| (places[places.len() - 1], places[0]));
+    let mut pieces = Vec::new();
+    for (first, last) in spans.chain(closing) {
+        let samples = between(&shape, first, last);
+        pieces.push((part_of_curve(model, &shape, &curve, &samples), first, last));
+    }
+    for surface in model.document.surfaces_on(id).collect::<Vec<_>>() {
+        let revision = model.next_revision();
+        let Some(followed) = model.surfaces.get_mut(&surface).map(crate::shape::edit) else { continue };
+        let mut embeddings = Vec::new();
+        for embedded in core::mem::take(&mut followed.embeddings) {
+            if embedded.curve != id {
+                embeddings.push(embedded);
+                continue;
+            }
+            for (curve, first, last) in &pieces {
+                let vertices: Vec<VertexId> =
+                    between(&shape, *first, *last).iter().map(|sample| embedded.vertices[*sample]).collect();
+                tag(&mut followed.mesh, &vertices, false, *curve);
+                embeddings.push(EmbeddedCurve { curve: *curve, vertices });
+            }
+        }
+        followed.embeddings = embeddings;
+        followed.revision = revision;
+        rename(model, surface, id, &pieces, &shape);
+        refresh_skeleton(model, surface);
+    }
+    model.document_mut().curves.remove(&id);
+    model.curves.remove(&id);
+    pieces
+}
+
+/// What a surface says of a curve that was divided, it says of the pieces.
+fn rename(
+    model: &mut Model,
+    surface: SurfaceId,
+    id: CurveId,
+    pieces: &[(CurveId, usize, usize)],
+    shape: &CurveShape,
+) {
+    let begins = |from: PointId| {
+        let sample = shape.sample_of(from)?;
+        let holds = |piece: &&(CurveId, usize, usize)| {
+            let samples = between(shape, piece.1, piece.2);
+            samples[..samples.len() - 1].contains(&sample)
+        };
+        pieces.iter().find(holds).map(|piece| piece.0)
+    };
+    let through: Vec<(CurveId, Vec<PointId>)> = pieces
+        .iter()
+        .filter_map(|(curve, ..)| Some((*curve, model.document.curves.get(curve)?.through.clone())))
+        .collect();
+    let Some(surface) = model.document_mut().surfaces.get_mut(&surface) else { return };
+    for region in surface.regions.iter_mut().filter(|region| region.curve == id) {
+        region.curve = begins(region.from).unwrap_or(id);
+    }
+    if let Some(ribbon) = surface.ribbons.remove(&id) {
+        for (curve, points) in through {
+            let mut own = ribbon.clone();
+            own.cross.retain(|point, _| points.contains(point));
+            if !own.cross.is_empty() {
+                surface.ribbons.insert(curve, own);
+            }
+        }
+    }
+}
+
+/// The samples from one to another, round a closed curve if need be.
+fn between(shape: &CurveShape, first: usize, last: usize) -> Vec<usize> {
+    let count = shape.nodes.len();
+    let steps = if last > first { last - first } else { last + count - first };
+    (0..=steps).map(|step| (first + step) % count).collect()
+}
+
+/// A new open curve over some samples of another one.
+fn part_of_curve(model: &mut Model, shape: &CurveShape, curve: &Curve, samples: &[usize]) -> CurveId {
+    let points: Vec<(usize, PointId)> = samples
+        .iter()
+        .enumerate()
+        .filter_map(|(place, sample)| {
+            let control = shape.controls.iter().find(|(index, _)| *index as usize == *sample)?;
+            Some((place, control.1))
+        })
+        .collect();
+    let tangents = |point: PointId| curve.tangents.get(&point).copied();
+    add_curve(model, shape, samples, (&points, false), curve, &tangents)
+}
+
+/// Adds a curve through the given samples of another, which are its own points at the given places.
+fn add_curve(
+    model: &mut Model,
+    shape: &CurveShape,
+    samples: &[usize],
+    (points, closed): (&[(usize, PointId)], bool),
+    like: &Curve,
+    tangent: &dyn Fn(PointId) -> Option<glam::DVec3>,
+) -> CurveId {
+    let id = model.document.next_curve();
+    let mut curve = Curve::new(points.iter().map(|(_, point)| *point).collect(), closed);
+    curve.objective = like.objective;
+    curve.tangents = points.iter().filter_map(|(_, point)| Some((*point, tangent(*point)?))).collect();
+    let revision = model.next_revision();
+    let nodes = samples.iter().map(|sample| shape.nodes[*sample]).collect();
+    let controls =
+        points.iter().map(|(place, point)| (u32::try_from(*place).unwrap_or(u32::MAX), *point)).collect();
+    model.document_mut().curves.insert(id, curve);
+    model.curves.insert(id, Arc::new(CurveShape { nodes, closed, controls, revision }));
+    id
+}
+
+/// The first whole run of a curve goes on following it; every other gets a curve of its own, through the points at its vertices.
+fn follow_apart(model: &mut Model, id: SurfaceId, opening: &Opening) -> Result<Vec<Followed>, ModelError> {
+    let mut followed: Vec<Followed> = Vec::new();
+    for run in &opening.runs {
+        if run.is_whole() && !followed.iter().any(|other| other.curve == run.curve) {
+            followed.push(Followed { run: run.clone(), curve: run.curve });
+            continue;
+        }
+        let shape = Arc::clone(model.curves.get(&run.curve).ok_or(ModelError::NoCurve(run.curve))?);
+        let like = model.document.curves.get(&run.curve).ok_or(ModelError::NoCurve(run.curve))?.clone();
+        let tagged = |v: &VertexId| opening.mesh.vertex_source(*v).map(|tag| PointId(tag.0));
+        let points: Vec<(usize, PointId)> = run
+            .vertices
+            .iter()
+            .zip(&run.samples)
+            .enumerate()
+            .filter(|(_, (_, sample))| shape.is_control(**sample))
+            .filter_map(|(place, (v, _))| Some((place, tagged(v)?)))
+            .collect();
+        let ends = [0, run.vertices.len() - 1];
+        let is_held = run.closed || ends.iter().all(|end| points.iter().any(|(place, _)| place == end));
+        if !is_held {
+            return Err(ModelError::TornOff { curve: run.curve, surface: id });
+        }
+        let old = |point: PointId| {
+            let place = points.iter().find(|(_, other)| *other == point)?.0;
+            shape.controls.iter().find(|(sample, _)| *sample as usize == run.samples[place]).map(|c| c.1)
+        };
+        let tangent = |point: PointId| like.tangents.get(&old(point)?).copied();
+        // A closed curve begins at its first control.
+        let first = if run.closed { points.first().map_or(0, |(place, _)| *place) } else { 0 };
+        let mut run = run.clone();
+        run.samples.rotate_left(first);
+        run.vertices.rotate_left(first);
+        let count = run.vertices.len();
+        let points: Vec<_> =
+            points.iter().map(|(place, point)| ((place + count - first) % count, *point)).collect();
+        let curve = add_curve(model, &shape, &run.samples, (&points, run.closed), &like, &tangent);
+        followed.push(Followed { run, curve });
+    }
+    Ok(followed)
+}
+
+/// The shape of a piece.
+fn shape_of(
+    model: &mut Model,
+    opening: &Opening,
+    part: &Extracted,
+    followed: &[Followed],
+    before: &SurfaceShape,
+) -> SurfaceShape {
+    let pick = |v: VertexId| part.vertices[v.index()];
+    let mut mesh = part.mesh.clone();
+    let carry = |from: &[f64]| -> Vec<f64> {
+        from.iter().zip(&part.vertices).filter_map(|(x, new)| new.map(|_| *x)).collect()
+    };
+    let positions =
+        opening.positions.iter().zip(&part.vertices).filter_map(|(x, new)| new.map(|_| *x)).collect();
+    for e in mesh.edges().collect::<Vec<_>>() {
+        mesh.set_edge_source(e, None);
+    }
+    let mut embeddings = Vec::new();
+    for Followed { run, curve } in followed {
+        let Some(vertices) = run.vertices.iter().map(|v| pick(*v)).collect::<Option<Vec<_>>>() else {
+            continue;
+        };
+        tag(&mut mesh, &vertices, run.closed, *curve);
+        let mut vertices = vertices;
+        if run.closed && *curve == run.curve {
+            // A whole run begins anywhere; its curve's samples count from 0.
+            let first = run.samples.iter().position(|sample| *sample == 0).unwrap_or(0);
+            vertices.rotate_left(first);
+        }
+        embeddings.push(EmbeddedCurve { curve: *curve, vertices });
+    }
+    let pins = before
+        .pins
+        .iter()
+        .filter_map(|pin| Some(Pin { vertex: pick(pin.vertex)?, point: pin.point }))
+        .collect();
+    let wanted = if opening.wanted.is_empty() { Vec::new() } else { carry(&opening.wanted) };
+    let revision = model.next_revision();
+    SurfaceShape { mesh, positions, embeddings, pins, spacing: before.spacing, wanted, revision }
+}
+
+/// Marks the edges along a chain.
+pub(crate) fn tag(mesh: &mut Mesh, vertices: &[VertexId], closed: bool, curve: CurveId) {
+    for edge in crate::surgery::opening::edges_of(mesh, vertices, closed).unwrap_or_default() {
+        mesh.set_edge_source(edge, Some(SourceTag(curve.0)));
+    }
+}
+
+/// What was said of regions, with a face of each.
+pub(crate) fn told(shape: &SurfaceShape, regions: &[Region]) -> Vec<(FaceId, Region)> {
+    let face = |region: &Region| region::face_beside(shape, region.curve, region.from, region.side);
+    regions.iter().filter_map(|region| Some((face(region)?, *region))).collect()
+}
+
+/// Says it again of a shape, under the names that the regions have there. What is in one piece has it for itself.
+pub(crate) fn tell_regions(
+    surface: &mut Surface,
+    shape: &SurfaceShape,
+    told: &[(FaceId, Region)],
+    face: impl Fn(FaceId) -> Option<FaceId>,
+) {
+    let labels: Labels = regions(&shape.mesh);
+    let mut seen = BTreeSet::new();
+    for (old, region) in told {
+        let Some(piece) = face(*old).map(|f| labels.of(f)) else { continue };
+        if !seen.insert(piece) {
+            continue;
+        }
+        let name = (labels.count() > 1).then(|| region::name_of(shape, &labels, piece)).flatten();
+        match name {
+            Some((curve, from, side)) => surface.regions.push(Region { curve, from, side, ..*region }),
+            None if labels.count() == 1 => {
+                surface.objective = region.objective.or(surface.objective);
+                surface.spacing = region.spacing.or(surface.spacing);
+            }
+            None => {}
+        }
+    }
+}
+
+/// Says again what was said of normals and ribbons. What led to the left of a curve leads backwards from a rim on its right.
+fn tell_planes(
+    own: &mut Surface,
+    surface: &Surface,
+    before: &SurfaceShape,
+    shape: &SurfaceShape,
+    followed: &[Followed],
+    twins: &BTreeMap<PointId, PointId>,
+    part: &Extracted,
+) {
+    let old = |point: PointId| twins.get(&point).copied().unwrap_or(point);
+    for v in shape.mesh.vertices() {
+        let Some(point) = shape.mesh.vertex_source(v).map(|tag| PointId(tag.0)) else { continue };
+        if let Some(normal) = surface.normals.get(&old(point)) {
+            own.normals.insert(point, *normal);
+        }
+    }
+    for Followed { run, curve } in followed {
+        let Some(ribbon) = surface.ribbons.get(&run.curve) else { continue };
+        let Some(vertices) =
+            run.vertices.iter().map(|v| part.vertices[v.index()]).collect::<Option<Vec<_>>>()
+        else {
+            continue;
+        };
+        let was_inner = before
+            .embeddings
+            .iter()
+            .any(|e| e.curve == run.curve && e.vertices.iter().any(|v| !before.mesh.is_boundary_vertex(*v)));
+        let turn = if was_inner && is_right_of(&shape.mesh, &vertices) { -1.0 } else { 1.0 };
+        let points = vertices.iter().filter_map(|v| shape.mesh.vertex_source(*v)).map(|tag| PointId(tag.0));
+        let cross = points.filter_map(|point| Some((point, *ribbon.cross.get(&old(point))? * turn)));
+        let ribbon = ductile_spec::Ribbon { cross: cross.collect() };
+        if !ribbon.cross.is_empty() {
+            own.ribbons.insert(*curve, ribbon);
+        }
+    }
+}
+
+/// Whether a chain runs along a rim and has its faces to its right.
+fn is_right_of(mesh: &Mesh, vertices: &[VertexId]) -> bool {
+    let Some(edge) = mesh.edge_between(vertices[0], vertices[1]) else { return false };
+    let (face, other) = mesh.edge_faces(edge);
+    let [a, b, c] = mesh.face_vertices(face);
+    other.is_none() && ![(a, b), (b, c), (c, a)].contains(&(vertices[0], vertices[1]))
+}
+
+/// Curves that lay wholly in what was given up go with it; those around it stay, and so do those that others follow.
+fn forget_curves(model: &mut Model, before: &SurfaceShape, followed: &[Followed]) {
+    for embedded in &before.embeddings {
+        let id = embedded.curve;
+        let stays = followed.iter().any(|other| other.curve == id)
+            || model.document.surfaces_on(id).next().is_some()
+            || !followed.iter().any(|other| other.run.curve == id) && bounds(before, embedded);
+        if !stays {
+            model.document_mut().curves.remove(&id);
+            model.curves.remove(&id);
+        }
+    }
+}
+
+/// Whether a curve lay on a rim.
+fn bounds(shape: &SurfaceShape, embedded: &EmbeddedCurve) -> bool {
+    embedded.vertices.iter().all(|v| shape.mesh.is_boundary_vertex(*v))
+}

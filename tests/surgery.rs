@@ -1,0 +1,286 @@
+//! Surgery on live shapes: cut, crease, smooth, burn out (thesis sections 4.2 and 7.3.2). After every act the document can be
+//! opened again, and gives a surface of the same kind; undo restores it to the letter.
+
+#![allow(clippy::unwrap_used, reason = "a failing test should stop where it fails")]
+
+use acceptance::Bench;
+use ductile_mesh::summary;
+use ductile_modeler::Model;
+use ductile_spec::{Border, CurveId, Edit, Extent, On, PointId, Request, SurfaceId, from_text};
+use glam::{DVec3, dvec3};
+
+/// A disc with a closed curve inside, which is raised.
+const HAT: &str = r#"{"ductile":1,"spacing":0.2,
+"points":{"1":[1,1,0],"2":[-1,1,0],"3":[-1,-1,0],"4":[1,-1,0],
+          "5":[0.5,0.5,0.3],"6":[-0.5,0.5,0.3],"7":[-0.5,-0.5,0.3],"8":[0.5,-0.5,0.3]},
+"curves":{"1":{"through":[1,2,3,4],"closed":true},"2":{"through":[5,6,7,8],"closed":true}},
+"surfaces":{"1":{"skeleton":{"vertices":[1,2,3,4,5,6,7,8],
+ "triangles":[[0,1,5],[0,5,4],[1,2,6],[1,6,5],[2,3,7],[2,7,6],[3,0,4],[3,4,7],[4,5,6],[4,6,7]],
+ "curves":[{"curve":1,"along":[0,1,2,3]},{"curve":2,"along":[4,5,6,7]}]}}}}"#;
+
+/// A Möbius strip with a curve along its core: five quadrilaterals, halved by the core.
+fn moebius() -> String {
+    let (mut points, mut triangles) = (String::new(), Vec::new());
+    let turn = core::f64::consts::TAU / 5.0;
+    let mut vertices = Vec::new();
+    for k in 0..5_u32 {
+        let (sin, cos) = libm::sincos(f64::from(k) * turn);
+        let (lift, lean) = libm::sincos(f64::from(k) * turn / 2.0);
+        points += &format!("\"{}\":[{},{},0],", k + 1, 2.0 * cos, 2.0 * sin);
+        for side in [1.0, -1.0] {
+            let r = 2.0 + 0.6 * side * lean;
+            vertices.push(format!("[{},{},{}]", r * cos, r * sin, 0.6 * side * lift));
+        }
+    }
+    let (core, high, low) = (|k: u32| k % 5, |k: u32| 5 + 2 * (k % 5), |k: u32| 6 + 2 * (k % 5));
+    for k in 0..5 {
+        let (next_high, next_low) = if k == 4 { (low(0), high(0)) } else { (high(k + 1), low(k + 1)) };
+        triangles.push([core(k), core(k + 1), high(k)]);
+        triangles.push([core(k + 1), next_high, high(k)]);
+        triangles.push([core(k), core(k + 1), low(k)]);
+        triangles.push([core(k + 1), next_low, low(k)]);
+    }
+    format!(
+        r#"{{"ductile":1,"spacing":0.35,"points":{{{}}},"curves":{{"1":{{"through":[1,2,3,4,5],"closed":true}}}},
+        "surfaces":{{"1":{{"skeleton":{{"vertices":[1,2,3,4,5,{}],"triangles":{triangles:?},
+        "curves":[{{"curve":1,"along":[0,1,2,3,4]}}]}}}}}}}}"#,
+        points.trim_end_matches(','),
+        vertices.join(",")
+    )
+}
+
+/// A torus on twelve points, three of them on a curve round its tube.
+fn torus() -> String {
+    let (rows, columns) = (4_u32, 3_u32);
+    let (mut points, mut vertices, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
+    for i in 0..rows {
+        for j in 0..columns {
+            let (sin, cos) = libm::sincos(f64::from(i) * core::f64::consts::TAU / f64::from(rows));
+            let (lift, out) = libm::sincos(f64::from(j) * core::f64::consts::TAU / f64::from(columns));
+            let at = [(2.0 + 0.7 * out) * cos, (2.0 + 0.7 * out) * sin, 0.7 * lift];
+            points.push(format!("\"{}\":{at:?}", columns * i + j + 1));
+            vertices.push(format!("{}", columns * i + j + 1));
+            let name = |i: u32, j: u32| (i % rows) * columns + j % columns;
+            triangles.push([name(i, j), name(i + 1, j), name(i + 1, j + 1)]);
+            triangles.push([name(i, j), name(i + 1, j + 1), name(i, j + 1)]);
+        }
+    }
+    format!(
+        r#"{{"ductile":1,"spacing":0.2,"points":{{{}}},"curves":{{"1":{{"through":[1,2,3],"closed":true}}}},
+        "surfaces":{{"1":{{"skeleton":{{"vertices":[{}],"triangles":{triangles:?},
+        "curves":[{{"curve":1,"along":[0,1,2]}}]}}}}}}}}"#,
+        points.join(","),
+        vertices.join(",")
+    )
+}
+
+fn with(text: &str) -> Bench {
+    let mut bench = Bench::new();
+    bench.accept(Request::OpenText { text: text.to_owned() });
+    bench.rest(600);
+    bench
+}
+
+/// Euler characteristic, boundaries and sides of every surface, in order.
+fn kinds(model: &Model) -> Vec<(u32, i64, usize, bool)> {
+    let of = |(id, shape): (&SurfaceId, &std::sync::Arc<ductile_modeler::SurfaceShape>)| {
+        let summary = summary(&shape.mesh);
+        assert_eq!(summary.components, 1, "{id} hangs together");
+        (id.0, summary.euler, summary.boundaries, summary.is_orientable)
+    };
+    model.surfaces.iter().map(of).collect()
+}
+
+/// Acts, and checks what every act must leave behind. Gives the kinds of the surfaces.
+fn act(bench: &mut Bench, edit: Edit) -> Vec<(u32, i64, usize, bool)> {
+    let before = bench.document.clone();
+    bench.edit(edit.clone());
+    let after = bench.document.clone();
+    let model = bench.modeler.model();
+    let kinds_now = kinds(model);
+    for (id, shape) in &model.surfaces {
+        for embedded in &shape.embeddings {
+            let curve = &model.curves[&embedded.curve];
+            for k in 0..curve.edge_count() {
+                let (a, b) = curve.edge(k);
+                let edge = shape.mesh.edge_between(embedded.vertices[a], embedded.vertices[b]);
+                let tag = edge.and_then(|e| shape.mesh.edge_source(e)).map(|tag| tag.0);
+                assert_eq!(tag, Some(embedded.curve.0), "{id} after {edit:?}");
+            }
+            for (sample, point) in &curve.controls {
+                let tag = shape.mesh.vertex_source(embedded.vertices[*sample as usize]).map(|tag| tag.0);
+                assert_eq!(tag, Some(point.0), "{id} along {} after {edit:?}", embedded.curve);
+            }
+        }
+    }
+    let again = Model::from_document(from_text(&after).unwrap()).unwrap();
+    assert_eq!(kinds(&again), kinds_now, "the document of {edit:?} means another surface: {after}");
+    bench.accept(Request::Undo);
+    assert_eq!(bench.document, before, "undo of {edit:?}");
+    bench.accept(Request::Redo);
+    assert_eq!(bench.document, after, "redo of {edit:?}");
+    kinds_now
+}
+
+fn on(surface: u32, at: DVec3) -> On {
+    On { surface: SurfaceId(surface), at }
+}
+
+fn refusal(bench: &mut Bench, edit: Edit) -> String {
+    let before = bench.document.clone();
+    let reply = bench.send(Request::Edit(edit));
+    assert_eq!(bench.document, before);
+    reply.refused.expect("it must be refused").reason
+}
+
+#[test]
+fn a_crease_leaves_both_banks_on_the_curve_and_smooth_takes_it_back() {
+    let mut bench = with(HAT);
+    let smooth = bench.rest(10);
+    let kinds = act(&mut bench, Edit::Crease { border: Border::Curve(CurveId(2)) });
+    assert_eq!(kinds, [(1, 0, 2, true), (2, 1, 1, true)]);
+    let creased = bench.rest(600);
+    assert!(creased < 0.8 * smooth, "a crease sets free: {creased} of {smooth}");
+    let document = bench.document();
+    assert_eq!(document.curves.len(), 2);
+    assert_eq!(document.points.len(), 8);
+    let kinds = act(&mut bench, Edit::Smooth { curve: CurveId(2) });
+    assert_eq!(kinds, [(1, 1, 1, true)]);
+    let again = bench.rest(600);
+    assert!((again - smooth).abs() < 0.01 * smooth, "{again} and {smooth}");
+}
+
+#[test]
+fn a_split_doubles_the_curve_and_its_points() {
+    let mut bench = with(HAT);
+    let kinds = act(&mut bench, Edit::Split { border: Border::Region(on(1, dvec3(0.0, 0.0, 0.3))) });
+    assert_eq!(kinds, [(1, 0, 2, true), (2, 1, 1, true)]);
+    let document = bench.document();
+    assert_eq!((document.curves.len(), document.points.len()), (3, 12));
+    // They are independent: the lid can be lifted off.
+    let lid: Vec<PointId> = document.curves[&CurveId(3)].through.clone();
+    for point in lid {
+        let to = document.points[&point] + DVec3::Z;
+        bench.edit(Edit::Move { point, to });
+    }
+    bench.rest(600);
+    let low = bench.modeler.model().surfaces[&SurfaceId(1)].clone();
+    let high = low.mesh.vertices().map(|v| low.positions[v.index()].z).fold(0.0, f64::max);
+    assert!(high < 0.5, "the rest of the hat stayed behind: {high}");
+}
+
+#[test]
+fn burning_out_makes_a_hole_and_takes_what_was_in_it() {
+    let mut bench = with(HAT);
+    bench.edit(Edit::Pin { surface: SurfaceId(1), at: dvec3(0.05, 0.0, 0.3) });
+    let kinds = act(&mut bench, Edit::Burnout { region: on(1, dvec3(0.0, 0.0, 0.3)) });
+    assert_eq!(kinds, [(1, 0, 2, true)]);
+    let document = bench.document();
+    assert_eq!((document.curves.len(), document.points.len()), (2, 8));
+    // What is left is a single region: that can be burnt out as well, and leaves its rims.
+    let kinds = act(&mut bench, Edit::Burnout { region: on(1, dvec3(0.9, 0.0, 0.1)) });
+    assert_eq!(kinds, []);
+    let document = bench.document();
+    assert_eq!((document.curves.len(), document.points.len()), (2, 8));
+    // A sheet in the hole's rim.
+    let kinds = act(&mut bench, Edit::Sheet { boundary: CurveId(2) });
+    assert_eq!(kinds.len(), 1);
+}
+
+#[test]
+fn a_sheet_in_a_hole_meets_the_surface_in_a_crease_that_can_be_smoothed() {
+    let mut bench = with(HAT);
+    let before = bench.rest(600);
+    act(&mut bench, Edit::Burnout { region: on(1, dvec3(0.0, 0.0, 0.3)) });
+    act(&mut bench, Edit::Sheet { boundary: CurveId(2) });
+    bench.rest(600);
+    let kinds = act(&mut bench, Edit::Smooth { curve: CurveId(2) });
+    assert_eq!(kinds, [(1, 1, 1, true)]);
+    let after = bench.rest(600);
+    assert!((after - before).abs() < 0.01 * before, "{after} and {before}");
+}
+
+#[test]
+fn the_tube_of_a_torus_is_creased_on_one_surface_and_cut_to_a_cylinder() {
+    let mut bench = with(&torus());
+    assert_eq!(kinds(bench.modeler.model()), [(1, 0, 0, true)]);
+    let smooth = bench.rest(600);
+    // Both rims of the one surface follow the one curve.
+    let kinds = act(&mut bench, Edit::Crease { border: Border::Curve(CurveId(1)) });
+    assert_eq!(kinds, [(1, 0, 2, true)]);
+    assert_eq!(bench.document().points.len(), 12);
+    bench.rest(600);
+    let why = refusal(&mut bench, Edit::Crease { border: Border::Curve(CurveId(1)) });
+    assert!(why.contains("rim"), "{why}");
+    let kinds = act(&mut bench, Edit::Smooth { curve: CurveId(1) });
+    assert_eq!(kinds, [(1, 0, 0, true)]);
+    // It may have found a better valley on its way, but none below what every smooth torus has (Willmore): 8 pi^2.
+    let again = bench.rest(600);
+    assert!(again > 78.9 && again < 1.01 * smooth, "{again} and {smooth}");
+    let kinds = act(&mut bench, Edit::Split { border: Border::Curve(CurveId(1)) });
+    assert_eq!(kinds, [(1, 0, 2, true)]);
+    assert_eq!(bench.document().points.len(), 15);
+}
+
+#[test]
+fn a_one_sided_region_is_split_but_not_creased() {
+    let mut bench = with(&moebius());
+    assert_eq!(kinds(bench.modeler.model()), [(1, 0, 1, false)]);
+    let why = refusal(&mut bench, Edit::Crease { border: Border::Curve(CurveId(1)) });
+    assert!(why.contains("one side"), "{why}");
+    // Cut along its core, a Möbius strip becomes a two-sided band of twice the length.
+    let kinds = act(&mut bench, Edit::Split { border: Border::Curve(CurveId(1)) });
+    assert_eq!(kinds, [(1, 0, 2, true)]);
+    let document = bench.document();
+    assert_eq!(document.points.len(), 10);
+    assert_eq!(document.curves.values().map(|curve| curve.through.len()).collect::<Vec<_>>(), [10]);
+}
+
+#[test]
+fn loops_expand_to_a_radius_or_to_match_another() {
+    let mut bench = with(HAT);
+    act(&mut bench, Edit::Expand { curve: CurveId(2), to: Extent::Radius(0.4) });
+    let radius = |bench: &Bench, curve: u32| {
+        let document = bench.document();
+        let at: Vec<DVec3> =
+            document.curves[&CurveId(curve)].through.iter().map(|p| document.points[p]).collect();
+        let centre = at.iter().sum::<DVec3>() / 4.0;
+        at.iter().map(|p| p.distance(centre)).sum::<f64>() / 4.0
+    };
+    assert!((radius(&bench, 2) - 0.4).abs() < 1e-5);
+    act(&mut bench, Edit::Expand { curve: CurveId(2), to: Extent::Like(CurveId(1)) });
+    assert!((radius(&bench, 2) - core::f64::consts::SQRT_2).abs() < 1e-5);
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let why = refusal(&mut bench, Edit::Expand { curve: CurveId(2), to: Extent::Radius(bad) });
+        assert!(why.contains("radius"), "{why}");
+    }
+}
+
+#[test]
+fn a_reversed_surface_is_the_same_shape_with_the_other_side_out() {
+    let mut bench = with(HAT);
+    let energy = bench.rest(600);
+    let winding = |bench: &Bench| {
+        let document = bench.document();
+        document.surfaces[&SurfaceId(1)].skeleton.triangles.clone()
+    };
+    let before = winding(&bench);
+    act(&mut bench, Edit::Reverse { surface: SurfaceId(1) });
+    assert_ne!(winding(&bench), before);
+    let after = bench.rest(600);
+    assert!((after - energy).abs() < 1e-6 * energy, "{after} and {energy}");
+}
+
+#[test]
+fn what_cannot_be_cut_is_refused_with_a_reason() {
+    let mut bench = with(HAT);
+    let why = refusal(&mut bench, Edit::Crease { border: Border::Curve(CurveId(1)) });
+    assert!(why.contains("rim"), "{why}");
+    let why = refusal(&mut bench, Edit::Smooth { curve: CurveId(2) });
+    assert!(why.contains("no crease"), "{why}");
+    let why = refusal(&mut bench, Edit::Split { border: Border::Curve(CurveId(9)) });
+    assert!(why.contains("does not exist"), "{why}");
+    let nowhere = on(1, DVec3::NAN);
+    assert!(!refusal(&mut bench, Edit::Burnout { region: nowhere }).is_empty());
+    assert!(!refusal(&mut bench, Edit::Reverse { surface: SurfaceId(7) }).is_empty());
+}
