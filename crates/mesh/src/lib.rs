@@ -49,7 +49,8 @@ pub use orient::{is_orientable, propagate_orientation, reverse, reverse_face};
 pub use place::{Place, nearest_place};
 pub use source::SourceTag;
 pub use surgery::{
-    Blocked, CrossingVertex, Cut, CutError, GlueError, InsertError, Meeting, Path, PathError, Seam,
+    Blocked, Bridge, BridgeError, Bridged, CrossingVertex, Cut, CutError, GlueError, InsertError, Meeting,
+    Path, PathError, Removed, Seam, Sense,
 };
 pub use topology::Mesh;
 pub use walk::Wedge;

@@ -7,6 +7,7 @@
 //! Check and act are a pair: `can_x` says whether and why not; `x` asserts in debug that it may.
 //! Elements that survive keep their handles. New faces are wound like the ones they replace.
 
+mod bridge;
 mod channel;
 mod collapse;
 mod cut;
@@ -15,13 +16,16 @@ mod flip;
 mod glue;
 mod insert;
 mod path;
+mod remove;
 mod sites;
 mod split;
 
+pub use bridge::{Bridge, BridgeError, Bridged, Sense};
 pub use cut::{Cut, CutError};
 pub use glue::{GlueError, Seam};
 pub use insert::{CrossingVertex, InsertError};
 pub use path::{Meeting, Path, PathError};
+pub use remove::Removed;
 
 use thiserror::Error;
 
