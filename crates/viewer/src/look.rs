@@ -68,12 +68,25 @@ pub struct Highlight {
     pub ghost_line: Vec<Vec3>,
     /// Handles, from the point that each stands on to its end, and whether the pointer is on it.
     pub arms: Vec<(Vec3, Vec3, bool)>,
-    /// Surfaces that a tool is about to touch: tinted with the accent.
-    pub tinted: Vec<SurfaceId>,
+    /// What a tool is about to touch: tinted with the accent.
+    pub tinted: Vec<Tinted>,
+    /// Rims that a tool is about to join: closed polylines in the colour of boundaries.
+    pub rims: Vec<Vec<Vec3>>,
+    /// Lines that show what a tool would make.
+    pub sketch: Vec<Vec<Vec3>>,
     /// Where new points go; the grid lies in it. The ground (z = 0) where there is none.
     pub work_plane: Option<WorkPlane>,
     /// The axis of the triad under the pointer.
     pub hover_view: Option<View>,
+}
+
+/// What is tinted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tinted {
+    /// A whole surface.
+    Surface(SurfaceId),
+    /// A region of one, by its place in `Structure::regions`.
+    Region(SurfaceId, u16),
 }
 
 /// A plane with two directions in it.

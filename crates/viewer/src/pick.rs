@@ -7,7 +7,7 @@
 
 use crate::camera::{Camera, Ray};
 use crate::scene::{Ball, Scene, triples};
-use ductile_spec::{CurveId, CurveSpan, PointId, SurfaceId};
+use ductile_spec::{CurveId, PointId, SurfaceId};
 use glam::{Vec2, Vec3};
 
 /// How far behind a surface something still counts as lying on it, in CSS pixels: curves and points stand
@@ -99,11 +99,42 @@ pub fn pick_among(
         .or_else(|| if wanted.surfaces { aim.surface() } else { None })
 }
 
+/// A polyline that can be pointed at.
+pub(crate) struct Line {
+    pub(crate) places: Vec<Vec3>,
+    pub(crate) closed: bool,
+}
+
+/// The polyline under the pointer, by its number, and its place nearest to the pointer.
+pub(crate) fn pick_line(
+    scene: &Scene,
+    camera: &Camera,
+    cursor: Vec2,
+    reach_px: f32,
+    lines: impl Iterator<Item = Line>,
+) -> Option<(usize, Vec3)> {
+    let aim = Aim { scene, camera, cursor, reach_px };
+    let candidates = lines.enumerate().filter_map(|(number, line)| {
+        let Near { distance_px, depth, at } = aim.nearest_on(line.places.into_iter(), line.closed)?;
+        Some(Candidate { distance_px, depth, at, what: number })
+    });
+    aim.first_visible(candidates.collect()).map(|found| (found.what, found.at))
+}
+
 /// Something within reach.
-struct Candidate {
+#[derive(Clone, Copy)]
+struct Candidate<T> {
     distance_px: f32,
     depth: f32,
-    hit: Hit,
+    at: Vec3,
+    what: T,
+}
+
+/// A place of a polyline within reach.
+struct Near {
+    distance_px: f32,
+    depth: f32,
+    at: Vec3,
 }
 
 /// A pointer over a scene.
@@ -119,36 +150,34 @@ impl Aim<'_> {
         let points = self.scene.points().filter(|(entry, _)| Some(entry.id) != except);
         let candidates = points.filter_map(|(entry, at)| {
             let distance_px = self.camera.project(at)?.distance(self.cursor);
-            let hit = Hit::Point { id: entry.id, at };
-            (distance_px <= self.reach_px).then(|| Candidate {
-                distance_px,
-                depth: self.camera.depth(at),
-                hit,
-            })
+            let depth = self.camera.depth(at);
+            (distance_px <= self.reach_px).then_some(Candidate { distance_px, depth, at, what: entry.id })
         });
-        self.first_visible(candidates.collect())
+        self.first_visible(candidates.collect()).map(|found| Hit::Point { id: found.what, at: found.at })
     }
 
     fn curve(&self) -> Option<Hit> {
-        let curves = self.scene.structure.curves.iter();
-        self.first_visible(curves.filter_map(|span| self.nearest_on_curve(span)).collect())
+        let candidates = self.scene.structure.curves.iter().filter_map(|span| {
+            let samples = triples(self.scene.span_samples(span));
+            let Near { distance_px, depth, at } = self.nearest_on(samples, span.closed)?;
+            Some(Candidate { distance_px, depth, at, what: span.id })
+        });
+        self.first_visible(candidates.collect()).map(|found| Hit::Curve { id: found.what, at: found.at })
     }
 
-    /// The place of a curve nearest to the pointer, if within reach.
-    fn nearest_on_curve(&self, span: &CurveSpan) -> Option<Candidate> {
-        let samples = triples(self.scene.span_samples(span));
-        let last = samples.clone().last()?;
-        let closing = if span.closed { Some(last) } else { None };
-        let mut best: Option<Candidate> = None;
+    /// The place of a polyline nearest to the pointer, if within reach.
+    fn nearest_on(&self, places: impl Iterator<Item = Vec3> + Clone, closed: bool) -> Option<Near> {
+        let last = places.clone().last()?;
+        let closing = if closed { Some(last) } else { None };
+        let mut best: Option<Near> = None;
         let mut before: Option<(Vec3, Option<Vec2>)> = closing.map(|at| (at, self.camera.project(at)));
-        for at in samples {
+        for at in places {
             let pixel = self.camera.project(at);
             if let (Some((from, Some(from_px))), Some(to_px)) = (before, pixel) {
                 let (distance_px, part) = distance_to_segment(self.cursor, from_px, to_px);
                 if distance_px <= self.reach_px && best.as_ref().is_none_or(|b| distance_px < b.distance_px) {
                     let place = from.lerp(at, self.part_in_space(from, at, part));
-                    let hit = Hit::Curve { id: span.id, at: place };
-                    best = Some(Candidate { distance_px, depth: self.camera.depth(place), hit });
+                    best = Some(Near { distance_px, depth: self.camera.depth(place), at: place });
                 }
             }
             before = Some((at, pixel));
@@ -166,12 +195,12 @@ impl Aim<'_> {
     }
 
     /// The nearest candidate that no surface hides; of those on one pixel, the front one.
-    fn first_visible(&self, mut candidates: Vec<Candidate>) -> Option<Hit> {
+    fn first_visible<T: Copy>(&self, mut candidates: Vec<Candidate<T>>) -> Option<Candidate<T>> {
         candidates.sort_by(|a, b| {
             let pixels = a.distance_px.round().total_cmp(&b.distance_px.round());
             pixels.then(a.depth.total_cmp(&b.depth))
         });
-        candidates.iter().take(CANDIDATES).find(|c| !self.is_hidden(c.hit.at())).map(|c| c.hit)
+        candidates.iter().take(CANDIDATES).find(|c| !self.is_hidden(c.at)).copied()
     }
 
     /// Whether a surface lies clearly before a place.

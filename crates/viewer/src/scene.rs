@@ -4,6 +4,7 @@
 //! A frame comes from another thread and is checked before it is believed: counts against the structure,
 //! indices against the vertices, numbers against NaN. A frame that fails leaves the scene as it was.
 
+use crate::pick::Hit;
 use ductile_spec::{
     CurveId, CurveSpan, FrameHeader, PointEntry, PointId, RegionEntry, Structure, SurfaceId, SurfaceSpan,
     VERTEX_FLOATS,
@@ -190,6 +191,44 @@ impl Scene {
         self.structure.regions.get(usize::from(*region)).copied().filter(|entry| entry.surface == surface)
     }
 
+    /// The place of a surface nearest to a given one, by the middle of its triangles, as if it had been pointed at.
+    #[must_use]
+    pub fn hit_near(&self, surface: SurfaceId, place: Vec3) -> Option<Hit> {
+        let (span, triangles, _) = self.surfaces().find(|(span, ..)| span.id == surface)?;
+        let middle = |t: &[u32]| t.iter().map(|v| self.vertex(*v)).sum::<Vec3>() / 3.0;
+        let middles = triangles.chunks_exact(3).map(middle).zip(span.first_index / 3..);
+        let distance = |(at, _): &(Vec3, u32)| at.distance_squared(place);
+        let (at, triangle) = middles.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+        let normal = self.vertex_normal(self.indices[3 * triangle as usize]);
+        Some(Hit::Surface { id: surface, at, normal, triangle })
+    }
+
+    /// The surface that has the vertex nearest to a place.
+    #[must_use]
+    pub fn surface_near(&self, place: Vec3) -> Option<SurfaceId> {
+        let nearest = |span: &SurfaceSpan| {
+            let own = span.first_vertex..span.first_vertex + span.vertex_count;
+            own.map(|v| self.vertex(v).distance_squared(place)).fold(f32::INFINITY, f32::min)
+        };
+        let found =
+            self.structure.surfaces.iter().filter(|_| self.has_frame()).map(|span| (nearest(span), span.id));
+        found.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, id)| id)
+    }
+
+    /// The region to which a triangle of the frame belongs; none if its surface is in one piece.
+    #[must_use]
+    pub fn region_of(&self, triangle: u32) -> Option<u16> {
+        let region = self.structure.region_of_triangle.get(triangle as usize).copied();
+        region.filter(|region| usize::from(*region) < self.structure.regions.len())
+    }
+
+    /// Centre and radius of a ball around a surface.
+    #[must_use]
+    pub fn ball_of(&self, surface: SurfaceId) -> Option<(Vec3, f32)> {
+        let (.., ball) = self.surfaces().find(|(span, ..)| span.id == surface)?;
+        Some((ball.centre, ball.radius))
+    }
+
     /// The triangles of a surface with a ball around them; none before the first frame.
     pub(crate) fn surfaces(&self) -> impl Iterator<Item = (&SurfaceSpan, &[u32], Ball)> + '_ {
         self.structure.surfaces.iter().zip(&self.balls).map(|(span, ball)| {
@@ -306,6 +345,23 @@ mod tests {
         let curve = scene.structure.curves[0];
         assert_eq!(scene.samples(curve.id).len(), curve.count as usize);
         assert!((scene.samples(curve.id).next().unwrap().length() - 1.0).abs() < 0.2);
+    }
+
+    #[test]
+    fn what_lies_nearest_is_found() {
+        let plate = |z: f32| move |u: f32, v: f32| Vec3::new(u, v, z);
+        let sketch = sample::Sketch::default().grid(10, plate(0.0), true).grid(10, plate(1.0), true);
+        let mut scene = sketch.finish();
+        assert_eq!(scene.surface_near(Vec3::new(0.5, 0.5, 0.7)), Some(SurfaceId(2)));
+        let Some(Hit::Surface { at, triangle, .. }) = scene.hit_near(SurfaceId(2), Vec3::splat(0.52)) else {
+            panic!("there is a place");
+        };
+        assert!(at.z == 1.0 && at.truncate().distance(glam::Vec2::splat(0.52)) < 0.06 && triangle >= 200);
+        assert_eq!(scene.region_of(triangle), None);
+        let region = RegionEntry { surface: SurfaceId(2), objective: None, spacing: None };
+        scene.structure.regions = vec![region; 2];
+        scene.structure.region_of_triangle = [vec![ductile_spec::NO_REGION; 200], vec![1; 200]].concat();
+        assert_eq!((scene.region_of(0), scene.region_of(triangle)), (None, Some(1)));
     }
 
     #[test]

@@ -17,6 +17,10 @@ const CURVE: f32 = 1.3;
 const BOUNDARY: f32 = 1.6;
 /// What hover adds to half a width or a radius.
 const THICKER: f32 = 0.9;
+/// Half the width of a line that shows what a tool would make.
+const SKETCH: f32 = 0.8;
+/// Width of the glow of a rim.
+const RIM_GLOW: f32 = 2.6;
 /// Radius of a control point.
 const POINT: f32 = 4.6;
 /// Radius of the end of a handle.
@@ -128,6 +132,22 @@ pub(crate) fn add_highlight(marks: &mut Marks, camera: &Camera, highlight: &High
         let fill = theme.curve.with_w(0.75);
         let style = Style { fill, half_width: CURVE, hidden: 0.5, ..Style::default() };
         marks.add_polyline(highlight.ghost_line.iter().copied(), false, style);
+    }
+    for line in &highlight.sketch {
+        let fill = theme.accent.with_w(0.8);
+        let style = Style { fill, half_width: SKETCH, hidden: 0.35, ..Style::default() };
+        marks.add_polyline(line.iter().copied(), false, style);
+    }
+    for rim in &highlight.rims {
+        let style = Style {
+            fill: theme.boundary,
+            outline: theme.boundary.with_w(0.35),
+            half_width: BOUNDARY + THICKER,
+            outline_width: RIM_GLOW,
+            hidden: 2.0 * HIDDEN_CURVE,
+            flags: 0,
+        };
+        marks.add_polyline(rim.iter().copied(), true, style);
     }
     for at in &highlight.ghost {
         marks.add_dot(*at, ghost(theme));
@@ -267,6 +287,17 @@ mod tests {
         assert_eq!(Vec3::from_slice(&marks.floats[at..at + 3]), Vec3::Y);
         let [plain, hovered] = [marks.dot_styles[0], marks.dot_styles[1]];
         assert!(plain.fill == theme.handle && hovered.half_width > plain.half_width);
+    }
+
+    #[test]
+    fn rims_are_closed_and_vermilion_and_what_would_be_made_is_thinner() {
+        let (mut marks, camera, theme) = (Marks::default(), Camera::default(), Theme::new(false));
+        let rims = vec![vec![Vec3::ZERO, Vec3::X, Vec3::Y]];
+        let sketch = vec![vec![Vec3::ZERO, Vec3::Z]];
+        add_highlight(&mut marks, &camera, &Highlight { rims, sketch, ..Highlight::default() }, &theme);
+        assert_eq!(marks.segments.len(), 1 + 3);
+        let [line, rim] = [marks.curve_styles[0], marks.curve_styles[1]];
+        assert!(rim.fill == theme.boundary && rim.half_width > line.half_width);
     }
 
     #[test]

@@ -1,12 +1,13 @@
-//! Draws the surfaces.
+//! Draws the surfaces, region by region.
 
 use crate::buffer::GrowingBuffer;
-use crate::look::Highlight;
+use crate::layer::length;
+use crate::look::{Highlight, Tinted};
 use crate::pipeline::{Layouts, Meets, Recipe, Workshop};
 use crate::scene::Scene;
 use crate::theme::Theme;
 use crate::uniforms::SurfaceStyle;
-use ductile_spec::SurfaceSpan;
+use ductile_spec::{NO_REGION, SurfaceId};
 use wgpu::{BindGroup, Device, Queue, RenderPass, RenderPipeline};
 
 /// The surfaces.
@@ -16,13 +17,25 @@ pub(crate) const SURFACE_SHADER: &str =
 /// Strength of the tint of a surface that a tool is about to touch.
 const TINT: f32 = 0.30;
 
+/// A region of a surface, or a surface in one piece.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    surface: SurfaceId,
+    region: Option<u16>,
+    is_orientable: bool,
+    first_index: u32,
+    index_count: u32,
+}
+
 #[derive(Debug)]
 pub(crate) struct SurfacePass {
     pipeline: RenderPipeline,
     indices: GrowingBuffer,
     styles: GrowingBuffer,
     group: Option<BindGroup>,
-    spans: Vec<SurfaceSpan>,
+    parts: Vec<Part>,
+    /// Triangles in the order of the parts; kept for its memory.
+    sorted: Vec<u32>,
     styles_of_now: Vec<SurfaceStyle>,
 }
 
@@ -41,14 +54,15 @@ impl SurfacePass {
             indices: GrowingBuffer::new(workshop.device, "triangles"),
             styles: GrowingBuffer::new(workshop.device, "surface styles"),
             group: None,
-            spans: Vec::new(),
+            parts: Vec::new(),
+            sorted: Vec::new(),
             styles_of_now: Vec::new(),
         }
     }
 
     pub(crate) fn upload_structure(&mut self, device: &Device, queue: &Queue, scene: &Scene) {
-        self.spans.clone_from(&scene.structure.surfaces);
-        if self.indices.write(device, queue, &scene.indices) {
+        divide(scene, &mut self.parts, &mut self.sorted);
+        if self.indices.write(device, queue, &self.sorted) {
             self.group = None;
         }
     }
@@ -68,9 +82,13 @@ impl SurfacePass {
         theme: &Theme,
     ) {
         self.styles_of_now.clear();
-        self.styles_of_now.extend(self.spans.iter().map(|span| {
-            let tint = if highlight.tinted.contains(&span.id) { TINT } else { 0.0 };
-            let sides = if span.summary.orientable { glam::Vec4::X } else { glam::Vec4::ZERO };
+        self.styles_of_now.extend(self.parts.iter().map(|part| {
+            let is_tinted = |tinted: &Tinted| match *tinted {
+                Tinted::Surface(id) => id == part.surface,
+                Tinted::Region(id, region) => id == part.surface && Some(region) == part.region,
+            };
+            let tint = if highlight.tinted.iter().any(is_tinted) { TINT } else { 0.0 };
+            let sides = if part.is_orientable { glam::Vec4::X } else { glam::Vec4::ZERO };
             SurfaceStyle { tint: theme.accent.truncate().extend(tint), sides }
         }));
         if self.styles.write(device, queue, &self.styles_of_now) {
@@ -85,9 +103,65 @@ impl SurfacePass {
         let Some(group) = &self.group else { return };
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(1, group, &[]);
-        for (span, number) in self.spans.iter().zip(0_u32..) {
-            // The instance tells the shader which surface it is.
-            pass.draw(span.first_index..span.first_index + span.index_count, number..number + 1);
+        for (part, number) in self.parts.iter().zip(0_u32..) {
+            // The instance tells the shader which part it is.
+            pass.draw(part.first_index..part.first_index + part.index_count, number..number + 1);
         }
+    }
+}
+
+/// Puts the triangles of every region one after the other, so that each is drawn with a style of its own.
+fn divide(scene: &Scene, parts: &mut Vec<Part>, sorted: &mut Vec<u32>) {
+    parts.clear();
+    sorted.clear();
+    for span in &scene.structure.surfaces {
+        let first = span.first_index as usize;
+        let own = &scene.indices[first..first + span.index_count as usize];
+        let labels = scene.structure.region_of_triangle.get(first / 3..(first + own.len()) / 3);
+        let mut order: Vec<(u16, &[u32])> = own
+            .chunks_exact(3)
+            .enumerate()
+            .map(|(number, t)| (labels.map_or(NO_REGION, |labels| labels[number]), t))
+            .collect();
+        order.sort_by_key(|(region, _)| *region);
+        for same in order.chunk_by(|a, b| a.0 == b.0) {
+            parts.push(Part {
+                surface: span.id,
+                region: Some(same[0].0).filter(|region| *region != NO_REGION),
+                is_orientable: span.summary.orientable,
+                first_index: length(sorted),
+                index_count: length(same) * 3,
+            });
+            sorted.extend(same.iter().flat_map(|(_, t)| t.iter()));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sample;
+    use ductile_spec::{RegionEntry, SurfaceId};
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    #[test]
+    fn every_triangle_is_drawn_once_with_the_others_of_its_region() {
+        let mut scene = sample::bumpy_disc(6);
+        let count = scene.indices.len() / 3;
+        let (mut parts, mut sorted) = (Vec::new(), Vec::new());
+        divide(&scene, &mut parts, &mut sorted);
+        assert_eq!((parts.len(), parts[0].region), (1, None));
+        assert_eq!(sorted, scene.indices, "in one piece it is as it came");
+        let region = RegionEntry { surface: SurfaceId(1), objective: None, spacing: None };
+        scene.structure.regions = vec![region; 2];
+        scene.structure.region_of_triangle = (0..count).map(|number| u16::from(number % 3 == 0)).collect();
+        divide(&scene, &mut parts, &mut sorted);
+        assert_eq!(parts.iter().map(|part| part.region).collect::<Vec<_>>(), [Some(0), Some(1)]);
+        assert_eq!(parts[1].first_index, parts[0].index_count);
+        assert_eq!(sorted.len(), scene.indices.len());
+        let second = parts[1].first_index as usize;
+        assert_eq!(sorted[second..second + 3], scene.indices[..3]);
+        assert_eq!(sorted[second + 3..second + 6], scene.indices[9..12]);
     }
 }

@@ -4,137 +4,33 @@
 //! the designer leaves it. Nothing here talks to the worker or to the document object model.
 
 use crate::{Hit, Scene};
-use ductile_spec::{CurveId, CurveSpan, Edit, PointEntry, PointId, PointRole, Structure, SurfaceId, Through};
+use ductile_spec::{CurveId, CurveSpan, Document, Edit, On, PointEntry, PointId, Structure, SurfaceId};
 use glam::Vec3;
 
 mod drag;
 mod ghost;
 mod handle;
+mod kind;
+mod options;
+mod pair;
+mod path;
+mod preview;
+mod selection;
+mod surgery;
+#[cfg(test)]
+mod surgery_test;
 #[cfg(test)]
 mod tests;
 
 pub use drag::{Arrow, Axis, Drag, grid_step, nudge_direction, work_plane};
 pub use ghost::ghost_line;
 pub use handle::{Arm, handles_at};
-
-/// The tools, in the order of the bar.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum ToolKind {
-    /// Takes hold of anything.
-    #[default]
-    Shape,
-    /// Places control points.
-    Point,
-    /// Makes curves through points.
-    Curve,
-    /// Skins a closed curve.
-    Sheet,
-    /// Skins the space between two closed curves.
-    Sweep,
-}
-
-impl ToolKind {
-    /// All of them.
-    pub const ALL: [Self; 5] = [Self::Shape, Self::Point, Self::Curve, Self::Sheet, Self::Sweep];
-
-    /// Its word in the page: `tool-shape` is its button.
-    #[must_use]
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Shape => "shape",
-            Self::Point => "point",
-            Self::Curve => "curve",
-            Self::Sheet => "sheet",
-            Self::Sweep => "sweep",
-        }
-    }
-
-    /// The tool that a key chooses.
-    #[must_use]
-    pub fn of_key(key: &str) -> Option<Self> {
-        match key {
-            "v" => Some(Self::Shape),
-            "p" => Some(Self::Point),
-            "c" => Some(Self::Curve),
-            "s" => Some(Self::Sheet),
-            "w" => Some(Self::Sweep),
-            _ => None,
-        }
-    }
-}
-
-/// What is selected.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Selection {
-    /// Nothing.
-    #[default]
-    None,
-    /// A control point.
-    Point(PointId),
-    /// A curve.
-    Curve(CurveId),
-    /// A surface.
-    Surface(SurfaceId),
-}
-
-impl Selection {
-    /// What a click on something selects.
-    #[must_use]
-    pub fn of(hit: Option<&Hit>) -> Self {
-        match hit {
-            None => Self::None,
-            Some(Hit::Point { id, .. }) => Self::Point(*id),
-            Some(Hit::Curve { id, .. }) => Self::Curve(*id),
-            Some(Hit::Surface { id, .. }) => Self::Surface(*id),
-        }
-    }
-
-    /// The same if the model still has it, else nothing.
-    #[must_use]
-    pub fn still_in(self, structure: &Structure) -> Self {
-        let exists = match self {
-            Self::None => true,
-            Self::Point(id) => structure.points.iter().any(|point| point.id == id),
-            Self::Curve(id) => structure.curves.iter().any(|curve| curve.id == id),
-            Self::Surface(id) => structure.surfaces.iter().any(|surface| surface.id == id),
-        };
-        if exists { self } else { Self::None }
-    }
-
-    /// The edit that removes it: a control that something hangs on is released, and its shape relaxes.
-    #[must_use]
-    pub fn removal(self, structure: &Structure) -> Option<Edit> {
-        match self {
-            Self::None => None,
-            Self::Point(point) => match entry(structure, point)?.role {
-                PointRole::Free => Some(Edit::DeletePoint { point }),
-                PointRole::Curve | PointRole::Surface => Some(Edit::Release { point }),
-            },
-            Self::Curve(curve) => Some(Edit::DeleteCurve { curve }),
-            Self::Surface(surface) => Some(Edit::DeleteSurface { surface }),
-        }
-    }
-
-    /// The next control point after the selected one, or before it, round and round.
-    #[must_use]
-    pub fn walk(self, structure: &Structure, backwards: bool) -> Self {
-        let points = &structure.points;
-        if points.is_empty() {
-            return Self::None;
-        }
-        let here = match self {
-            Self::Point(id) => points.iter().position(|point| point.id == id),
-            _ => None,
-        };
-        let next = match (here, backwards) {
-            (None, false) => 0,
-            (None, true) => points.len() - 1,
-            (Some(index), false) => (index + 1) % points.len(),
-            (Some(index), true) => (index + points.len() - 1) % points.len(),
-        };
-        Self::Point(points[next].id)
-    }
-}
+pub use kind::ToolKind;
+pub use options::{Options, Toggle};
+pub use pair::Pick;
+pub use path::Corner;
+pub use preview::{mean_radius, ties, tube};
+pub use selection::Selection;
 
 /// What a tool wants done.
 #[derive(Clone, Debug, PartialEq)]
@@ -158,6 +54,10 @@ pub struct Aim<'a> {
     pub place: Option<Vec3>,
     /// The corner of the curve under way, if the pointer is on one.
     pub corner: Option<usize>,
+    /// The surface under the pointer, or else the one nearest to the thing.
+    pub surface: Option<SurfaceId>,
+    /// The rim that would be taken.
+    pub rim: Option<Place>,
 }
 
 /// What the model is when a tool acts.
@@ -165,8 +65,12 @@ pub struct Aim<'a> {
 pub struct Surroundings<'a> {
     /// The things of the model.
     pub structure: &'a Structure,
+    /// The document behind them.
+    pub document: &'a Document,
     /// Where the eye looks.
     pub forward: Vec3,
+    /// Radius of a tube that suits the model, while nobody has chosen another.
+    pub radius: f64,
 }
 
 /// A key that a tool understands.
@@ -180,13 +84,32 @@ pub enum ToolKey {
     Escape,
 }
 
-/// A corner of a curve under way.
+/// A place on a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Corner {
-    /// The point it takes over, if it stands on one.
-    pub point: Option<PointId>,
-    /// Where it is.
+pub struct Place {
+    /// Which surface.
+    pub surface: SurfaceId,
+    /// Where.
     pub at: Vec3,
+    /// The unit normal there; none where a rim was picked.
+    pub normal: Option<Vec3>,
+}
+
+impl Place {
+    /// As an act names it.
+    #[must_use]
+    pub fn on(self) -> On {
+        On { surface: self.surface, at: self.at.as_dvec3() }
+    }
+
+    fn of(hit: Option<&Hit>) -> Option<Self> {
+        match hit {
+            Some(Hit::Surface { id, at, normal, .. }) => {
+                Some(Self { surface: *id, at: *at, normal: Some(*normal) })
+            }
+            _ => None,
+        }
+    }
 }
 
 /// The tool in hand and how far it has come.
@@ -194,7 +117,8 @@ pub struct Corner {
 pub struct Toolbox {
     kind: ToolKind,
     corners: Vec<Corner>,
-    from: Option<CurveId>,
+    first: Option<Pick>,
+    options: Options,
 }
 
 impl Toolbox {
@@ -210,15 +134,33 @@ impl Toolbox {
         &self.corners
     }
 
-    /// The first curve of a sweep under way.
+    /// What a tool that wants two things has got already.
     #[must_use]
-    pub fn sweep_from(&self) -> Option<CurveId> {
-        self.from
+    pub fn first(&self) -> Option<Pick> {
+        self.first
     }
 
-    /// Takes a tool in hand; what was under way is given up.
+    /// How the tools do what they do.
+    #[must_use]
+    pub fn options(&self) -> &Options {
+        &self.options
+    }
+
+    /// As [`Self::options`], to be changed.
+    pub fn options_mut(&mut self) -> &mut Options {
+        &mut self.options
+    }
+
+    /// Takes a tool in hand; what was under way is given up, but for the choices made.
     pub fn choose(&mut self, kind: ToolKind) {
-        *self = Self { kind, ..Self::default() };
+        let options = Options { reversed: false, ..self.options };
+        *self = Self { kind, options, ..Self::default() };
+    }
+
+    /// Awaits the closed curve whose size another one is to get.
+    pub fn choose_match(&mut self, curve: CurveId) {
+        self.choose(ToolKind::Match);
+        self.first = Some(Pick::Curve(curve));
     }
 
     /// Whether a drag takes hold of things, rather than turning the view.
@@ -235,17 +177,16 @@ impl Toolbox {
             ToolKind::Point => {
                 "Click where a control point should be: on a surface, on a curve, or in the work plane."
             }
-            ToolKind::Curve => match self.corners.len() {
-                0 => "Click where the curve begins. Points that exist are taken over.",
-                1 => "Click the next point. Backspace takes the last one away, Esc gives up.",
-                2 => "Click the next point, or Enter to end the curve here.",
-                _ => "Click the next point, the first one to close the curve, or Enter to end it.",
-            },
+            ToolKind::Curve | ToolKind::Draw => self.path_hint(),
             ToolKind::Sheet => "Click a closed curve to skin it.",
-            ToolKind::Sweep => match self.from {
-                None => "Click the first of two closed curves.",
-                Some(_) => "Now click the other closed curve.",
-            },
+            ToolKind::Burnout => "Click a region to burn it out. The curves around it stay.",
+            ToolKind::Crease => {
+                "Click a curve in a surface, or a region, to crease it. Click a crease to smooth it."
+            }
+            ToolKind::Split => "Click a curve in a surface, or a region, to cut the surface there.",
+            ToolKind::Sweep | ToolKind::Glue | ToolKind::Merge | ToolKind::Trim | ToolKind::Match => {
+                self.pair_hint()
+            }
         }
     }
 
@@ -253,35 +194,48 @@ impl Toolbox {
     pub fn click(&mut self, aim: Aim<'_>, around: Surroundings<'_>) -> Vec<Act> {
         match self.kind {
             ToolKind::Shape => vec![Act::Select(Selection::of(aim.hit))],
-            ToolKind::Point => Self::place_point(aim),
-            ToolKind::Curve => self.place_corner(aim, around),
+            ToolKind::Point => place_point(aim),
+            ToolKind::Curve | ToolKind::Draw => self.place_corner(aim, around),
             ToolKind::Sheet => match closed_curve(aim.hit, around.structure) {
                 Ok(boundary) => vec![Act::Edit(Edit::Sheet { boundary })],
                 Err(why) => vec![Act::Say(why)],
             },
-            ToolKind::Sweep => self.pick_end(aim.hit, around.structure),
+            ToolKind::Burnout => surgery::burn_out(aim),
+            ToolKind::Crease => surgery::crease(aim, around),
+            ToolKind::Split => surgery::split(aim, around),
+            ToolKind::Sweep => self.pick_sweep(aim.hit, around.structure),
+            ToolKind::Glue => self.pick_glue(aim.rim),
+            ToolKind::Merge => self.pick_merge(Place::of(aim.hit), around.radius),
+            ToolKind::Trim => self.pick_trim(Place::of(aim.hit)),
+            ToolKind::Match => self.pick_match(aim.hit, around.structure),
         }
     }
 
     /// A key.
     pub fn key(&mut self, key: ToolKey, around: Surroundings<'_>) -> Vec<Act> {
-        match (self.kind, key) {
-            (ToolKind::Curve, ToolKey::Done) if !self.corners.is_empty() => self.end_curve(false, around),
-            (ToolKind::Curve, ToolKey::Back) if self.corners.pop().is_some() => Vec::new(),
-            (ToolKind::Curve, ToolKey::Escape) if !self.corners.is_empty() => {
+        match key {
+            ToolKey::Done if !self.corners.is_empty() => self.end_path(false, around),
+            ToolKey::Back if self.corners.pop().is_some() => Vec::new(),
+            ToolKey::Escape if !self.corners.is_empty() => {
                 self.corners.clear();
                 Vec::new()
             }
-            (ToolKind::Sweep, ToolKey::Back | ToolKey::Escape) if self.from.take().is_some() => Vec::new(),
-            (_, ToolKey::Escape) => vec![Act::Leave],
-            _ => Vec::new(),
+            ToolKey::Back | ToolKey::Escape
+                if self.kind != ToolKind::Match && self.first.take().is_some() =>
+            {
+                self.options.reversed = false;
+                Vec::new()
+            }
+            ToolKey::Escape => vec![Act::Leave],
+            ToolKey::Back if self.kind == ToolKind::Match => vec![Act::Leave],
+            ToolKey::Done | ToolKey::Back => Vec::new(),
         }
     }
 
     /// Whether Backspace belongs to the tool rather than to the selection.
     #[must_use]
     pub fn is_under_way(&self) -> bool {
-        !self.corners.is_empty() || self.from.is_some()
+        !self.corners.is_empty() || self.first.is_some()
     }
 
     /// Forgets what the model no longer has.
@@ -293,89 +247,31 @@ impl Toolbox {
                 corner.at = at;
             }
         }
-        self.from = self.from.filter(|id| span(structure, *id).is_some());
-    }
-
-    fn place_point(aim: Aim<'_>) -> Vec<Act> {
-        let edit = match (aim.hit, aim.place) {
-            (Some(Hit::Point { id, .. }), _) => {
-                let say = "There is a control point here already; it is selected.";
-                return vec![Act::Select(Selection::Point(*id)), Act::Say(say.to_owned())];
-            }
-            (Some(Hit::Curve { id, at }), _) => Edit::Insert { curve: *id, at: at.as_dvec3() },
-            (Some(Hit::Surface { id, at, .. }), _) => Edit::Pin { surface: *id, at: at.as_dvec3() },
-            (None, Some(at)) => Edit::Point { at: at.as_dvec3() },
-            (None, None) => return vec![Act::Say(NO_PLACE.to_owned())],
-        };
-        vec![Act::Edit(edit)]
-    }
-
-    fn place_corner(&mut self, aim: Aim<'_>, around: Surroundings<'_>) -> Vec<Act> {
-        let hit_point = match aim.hit {
-            Some(Hit::Point { id, .. }) => Some(*id),
-            _ => None,
-        };
-        let met = aim
-            .corner
-            .or_else(|| self.corners.iter().position(|c| c.point.is_some() && c.point == hit_point));
-        match met {
-            Some(0) if self.corners.len() >= 3 => return self.end_curve(true, around),
-            Some(0) => return say("A closed curve needs at least three points."),
-            Some(last) if last + 1 == self.corners.len() => {
-                return if last >= 1 { self.end_curve(false, around) } else { Vec::new() };
-            }
-            Some(_) => return say("The curve passes through this point already."),
-            None => {}
-        }
-        let at = match aim.hit {
-            Some(Hit::Point { at, .. } | Hit::Curve { at, .. } | Hit::Surface { at, .. }) => Some(*at),
-            None => aim.place,
-        };
-        let Some(at) = at else { return say(NO_PLACE) };
-        self.corners.push(Corner { point: hit_point, at });
-        Vec::new()
-    }
-
-    fn end_curve(&mut self, closed: bool, around: Surroundings<'_>) -> Vec<Act> {
-        if self.corners.len() < 2 {
-            return say("A curve needs at least two points.");
-        }
-        let mut corners = std::mem::take(&mut self.corners);
-        if closed && turns_away(&corners, around.forward) {
-            // A sheet over the curve then shows its outside to the designer.
-            corners[1..].reverse();
-        }
-        let through = corners.iter().map(|c| c.point.map_or(Through::Place(c.at.as_dvec3()), Through::Point));
-        vec![Act::Edit(Edit::Curve { through: through.collect(), closed })]
-    }
-
-    fn pick_end(&mut self, hit: Option<&Hit>, structure: &Structure) -> Vec<Act> {
-        let curve = match closed_curve(hit, structure) {
-            Ok(curve) => curve,
-            Err(why) => return vec![Act::Say(why)],
-        };
-        match self.from {
-            None => {
-                self.from = Some(curve);
-                Vec::new()
-            }
-            Some(from) if from == curve => say("A sweep needs two different curves."),
-            Some(from) => {
-                self.from = None;
-                vec![Act::Edit(Edit::Sweep { from, to: curve, reversed: false })]
-            }
+        let has = |id: SurfaceId| structure.surfaces.iter().any(|surface| surface.id == id);
+        self.corners.retain(|corner| corner.surface.is_none_or(has));
+        self.first = self.first.filter(|first| match first {
+            Pick::Curve(id) => span(structure, *id).is_some(),
+            Pick::Place(place) => has(place.surface),
+        });
+        if self.kind == ToolKind::Match && self.first.is_none() {
+            self.choose(ToolKind::Shape);
         }
     }
 }
 
-/// Whether a closed polygon runs clockwise as the eye sees it (the sum is Newell's normal).
-fn turns_away(corners: &[Corner], forward: Vec3) -> bool {
-    let next = corners.iter().cycle().skip(1);
-    let normal: Vec3 = corners.iter().zip(next).map(|(a, b)| a.at.cross(b.at)).sum();
-    normal.dot(forward) > 0.0
+fn place_point(aim: Aim<'_>) -> Vec<Act> {
+    let edit = match (aim.hit, aim.place) {
+        (Some(Hit::Point { id, .. }), _) => {
+            let say = "There is a control point here already; it is selected.";
+            return vec![Act::Select(Selection::Point(*id)), Act::Say(say.to_owned())];
+        }
+        (Some(Hit::Curve { id, at }), _) => Edit::Insert { curve: *id, at: at.as_dvec3() },
+        (Some(Hit::Surface { id, at, .. }), _) => Edit::Pin { surface: *id, at: at.as_dvec3() },
+        (None, Some(at)) => Edit::Point { at: at.as_dvec3() },
+        (None, None) => return vec![Act::Say(path::NO_PLACE.to_owned())],
+    };
+    vec![Act::Edit(edit)]
 }
-
-const NO_PLACE: &str = "The work plane is seen edge-on here: turn the view a little.";
 
 fn say(text: &str) -> Vec<Act> {
     vec![Act::Say(text.to_owned())]

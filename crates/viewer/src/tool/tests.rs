@@ -1,6 +1,7 @@
 use super::*;
-use ductile_spec::{CurveRole, Through};
+use ductile_spec::{CurveRole, PointRole, Through};
 use glam::DVec3;
+use std::sync::LazyLock;
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
@@ -23,12 +24,15 @@ fn key(tools: &mut Toolbox, key: ToolKey) -> Vec<Act> {
     tools.key(key, around(&structure()))
 }
 
+/// A document of which the tools that ask for none see nothing.
+static NOTHING: LazyLock<Document> = LazyLock::new(Document::default);
+
 fn around(structure: &Structure) -> Surroundings<'_> {
-    Surroundings { structure, forward: Vec3::NEG_Z }
+    Surroundings { structure, document: &NOTHING, forward: Vec3::NEG_Z, radius: 0.25 }
 }
 
 fn on_plane(x: f32) -> Aim<'static> {
-    Aim { hit: None, place: Some(Vec3::new(x, 0.0, 0.0)), corner: None }
+    Aim { place: Some(Vec3::new(x, 0.0, 0.0)), ..Aim::default() }
 }
 
 fn curve_hit(id: u32) -> Hit {

@@ -3,7 +3,7 @@
 use super::page::{Page, act};
 use super::{dom, files};
 use crate::View;
-use crate::tool::{Selection, ToolKey, ToolKind};
+use crate::tool::{Selection, Toggle, ToolKey, ToolKind};
 use ductile_spec::{Edit, Example, PointId, Request};
 use wasm_bindgen::JsCast;
 use web_sys::{Element, Event, HtmlDialogElement, HtmlElement, KeyboardEvent, MouseEvent};
@@ -114,6 +114,10 @@ impl Page {
             if let Some(kind) = ToolKind::ALL.into_iter().find(|kind| kind.word() == word) {
                 self.choose_tool(kind);
             }
+        } else if let Some(word) = command.strip_prefix("option-") {
+            if let Some(toggle) = Toggle::ALL.into_iter().find(|toggle| toggle.word() == word) {
+                self.turn(toggle);
+            }
         } else if let Some(name) = command.strip_prefix("look-") {
             self.toggle_look(name);
         } else if let Some(theme) = command.strip_prefix("theme-") {
@@ -141,6 +145,12 @@ impl Page {
             "redo" => self.request(Request::Redo),
             "reset" => self.reset(),
             "delete" => self.delete_selected(),
+            "reverse" => {
+                if let Selection::Surface(surface) = self.selection {
+                    self.request(Request::Edit(Edit::Reverse { surface }));
+                }
+            }
+            "match" => self.begin_match(),
             "free-tangent" => self.free_tangent(),
             "free-normal" => self.free_normal(),
             "free-ribbon" => self.free_ribbon(),
@@ -257,10 +267,14 @@ impl Page {
             "surface" => Selection::Surface(ductile_spec::SurfaceId(number)),
             _ => return,
         };
-        let wants = match self.tools.kind() {
-            ToolKind::Sheet | ToolKind::Sweep => matches!(self.selection, Selection::Curve(_)),
-            ToolKind::Curve => matches!(self.selection, Selection::Point(_)),
-            ToolKind::Shape | ToolKind::Point => false,
+        let wants = match (self.tools.kind(), self.selection) {
+            (ToolKind::Shape | ToolKind::Point | ToolKind::Curve | ToolKind::Draw, Selection::Curve(_)) => {
+                false
+            }
+            (_, Selection::Curve(_)) => true,
+            (kind, Selection::Point(_)) => kind == ToolKind::Curve,
+            // Which part of a surface is meant, a list cannot say.
+            _ => false,
         };
         if wants {
             self.take_selected();

@@ -3,7 +3,7 @@
 use super::density;
 use super::dom;
 use super::page::{Page, act};
-use super::{normal, ribbon, tangent};
+use super::{extent, normal, options, ribbon, tangent};
 use crate::number;
 use crate::tool::Selection;
 use ductile_spec::{Edit, PointId, Request};
@@ -28,6 +28,8 @@ pub(crate) fn listen() {
         on_field(id, move |page, text| page.typed_normal(index, text));
     }
     on_field(ribbon::FIELD, Page::typed_ribbon);
+    on_field(extent::FIELD, Page::typed_loop_radius);
+    on_field(options::FIELD, Page::typed_tube_radius);
     on_field("name", |page, text| {
         let name = text.trim().to_owned();
         if name != page.document.name {
@@ -79,7 +81,7 @@ impl Page {
             .chain(tangent::FIELDS)
             .chain(normal::FIELDS)
             .chain(density::FIELDS)
-            .chain([ribbon::FIELD])
+            .chain([ribbon::FIELD, extent::FIELD, options::FIELD])
         {
             self.fill_field(&dom::element_as(id), false);
         }
@@ -104,6 +106,8 @@ impl Page {
             (field, Selection::Point(_)) if normal::FIELDS.contains(&field) => {
                 self.normal_text(normal::FIELDS.iter().position(|name| *name == field).unwrap_or(0))
             }
+            (options::FIELD, _) => self.tube_radius_text(),
+            (extent::FIELD, Selection::Curve(_)) => self.loop_radius_text(),
             (ribbon::FIELD, Selection::Curve(_)) => self.ribbon_text(),
             (_, Selection::Point(point)) => {
                 let live = self.scene.header.held == Some(point);

@@ -4,9 +4,9 @@ use super::dom;
 use super::page::Page;
 use crate::input::{Button, Gesture, Modifiers, Pointer, Recogniser};
 use crate::tool::{
-    Act, Aim, Arm, Drag, Selection, Surroundings, ToolKind, entry, grid_step, handles_at, work_plane,
+    Act, Aim, Arm, Drag, Place, Selection, Surroundings, ToolKind, entry, grid_step, handles_at, work_plane,
 };
-use crate::{Hit, Pose, View, Wanted, pick, pick_among};
+use crate::{Hit, Pose, RimHit, View, Wanted, pick, pick_among};
 use ductile_spec::{Edit, GrabTarget, PointRole, Request};
 use glam::{Vec2, Vec3};
 
@@ -27,6 +27,7 @@ pub(crate) struct Hand {
     pub(crate) modifiers: Modifiers,
     pub(crate) hover: Option<Hit>,
     pub(crate) hover_arm: Option<Arm>,
+    pub(crate) hover_rim: Option<RimHit>,
     pub(crate) hover_view: Option<View>,
     pub(crate) hover_is_stale: bool,
     pub(crate) is_finger: bool,
@@ -40,7 +41,7 @@ impl Hand {
         self.recogniser.abandon();
     }
 
-    fn reach(&self) -> f32 {
+    pub(crate) fn reach(&self) -> f32 {
         if self.is_finger { FINGER_REACH } else { REACH }
     }
 }
@@ -87,7 +88,9 @@ impl Page {
 
     /// The wheel turns.
     pub(crate) fn wheel(&mut self, at: Vec2, by: Vec2, modifiers: Modifiers) {
-        self.run(Recogniser::wheel(at, by, modifiers));
+        if !self.turn_radius(by, modifiers) {
+            self.run(Recogniser::wheel(at, by, modifiers));
+        }
     }
 
     /// Gives up a drag; says whether there was one.
@@ -146,7 +149,7 @@ impl Page {
     }
 
     /// What a press at a place would take.
-    fn thing_at(&self, at: Vec2) -> Option<Hit> {
+    pub(crate) fn thing_at(&self, at: Vec2) -> Option<Hit> {
         pick_among(&self.scene, &self.camera, at, self.hand.reach(), self.wanted())
     }
 
@@ -154,11 +157,10 @@ impl Page {
     fn wanted(&self) -> Wanted {
         let look = &self.settings.look;
         let kind = self.tools.kind();
-        let shape = matches!(kind, ToolKind::Shape | ToolKind::Point | ToolKind::Curve);
         Wanted {
-            points: look.skeleton && shape,
-            curves: look.skeleton,
-            surfaces: look.surface && shape,
+            points: look.skeleton && kind.wants_points(),
+            curves: look.skeleton && kind.wants_curves(),
+            surfaces: look.surface && kind.wants_surfaces(),
             except: None,
         }
     }
@@ -194,9 +196,24 @@ impl Page {
             Some(Hit::Surface { id, at, .. }) => Some((id, at)),
             _ => None,
         };
-        let aim =
-            Aim { hit: hit.as_ref(), place: self.place_on_plane(at, modifiers), corner: self.corner_at(at) };
-        let around = Surroundings { structure: &self.scene.structure, forward: self.camera.forward() };
+        let aim = Aim {
+            hit: hit.as_ref(),
+            place: self.place_on_plane(at, modifiers),
+            corner: self.corner_at(at),
+            surface: self.surface_at(at, hit.as_ref()),
+            rim: self.rim_at(at).map(|rim| Place { surface: rim.surface, at: rim.at, normal: None }),
+        };
+        self.click_with(aim);
+    }
+
+    /// Gives a click to the tool in hand, and does what it wants done.
+    pub(crate) fn click_with(&mut self, aim: Aim<'_>) {
+        let around = Surroundings {
+            structure: &self.scene.structure,
+            document: &self.document,
+            forward: self.camera.forward(),
+            radius: self.suited_radius(),
+        };
         let acts = self.tools.click(aim, around);
         self.perform(acts);
     }
@@ -306,22 +323,6 @@ impl Page {
         self.refresh();
     }
 
-    /// The tool in hand takes the selected thing, or the middle of the picture: for those without a pointer.
-    pub(crate) fn take_selected(&mut self) {
-        let hit = match self.selection {
-            Selection::Point(id) => self.scene.point(id).map(|at| Hit::Point { id, at }),
-            Selection::Curve(id) => self.scene.samples(id).next().map(|at| Hit::Curve { id, at }),
-            Selection::Surface(_) | Selection::None => None,
-        };
-        let middle = self.camera.viewport() * 0.5;
-        let place = self.place_on_plane(middle, Modifiers::default());
-        let hit = hit.filter(|_| self.tools.kind() != ToolKind::Point);
-        let aim = Aim { hit: hit.as_ref(), place, corner: None };
-        let around = Surroundings { structure: &self.scene.structure, forward: self.camera.forward() };
-        let acts = self.tools.click(aim, around);
-        self.perform(acts);
-    }
-
     /// Brings everything into view.
     pub(crate) fn fit_all(&mut self) {
         if let Some((centre, radius)) = self.scene.bounds() {
@@ -348,6 +349,7 @@ impl Page {
         self.hand.hover = None;
         self.hand.hover_view = None;
         self.hand.hover_arm = None;
+        self.hand.hover_rim = None;
         let Some(at) = self.hand.cursor else { return };
         if self.hand.recogniser.is_busy() || self.hand.is_finger {
             return;
@@ -357,7 +359,9 @@ impl Page {
             self.hand.hover_arm = self.arm_at(at).filter(|_| self.tools.holds());
         }
         if self.hand.hover_view.is_none() && self.hand.hover_arm.is_none() {
-            self.hand.hover = self.thing_at(at);
+            let kind = self.tools.kind();
+            self.hand.hover = self.thing_at(at).filter(|hit| kind.takes(hit, &self.scene.structure));
+            self.hand.hover_rim = self.rim_at(at);
         }
     }
 }

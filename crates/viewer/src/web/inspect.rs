@@ -44,6 +44,7 @@ impl Page {
         let out = Object::new();
         put(&out, "tool", self.tools.kind().word());
         put(&out, "corners", number(self.tools.corners().len()));
+        put(&out, "underWay", self.tools.is_under_way());
         put(&out, "settled", self.schedule.is_at_rest() && self.scene.header.settled);
         put(&out, "held", self.scene.header.held.map_or(JsValue::NULL, |id| id.0.into()));
         put(&out, "figures", plain(&self.scene.header.figures));
@@ -55,6 +56,7 @@ impl Page {
         put(&out, "camera", self.described_camera());
         put(&out, "selection", self.described_selection());
         put(&out, "hover", self.described_hover());
+        put(&out, "marked", self.described_marks());
         let committed = self.committed.as_ref();
         put(&out, "act", optional(committed.map(|c| c.act.as_str())));
         put(&out, "document", optional(committed.map(|c| c.document.as_str())));
@@ -129,6 +131,16 @@ impl Page {
             Selection::Curve(id) => id.to_string().into(),
             Selection::Surface(id) => id.to_string().into(),
         }
+    }
+
+    /// What the tool in hand marks in the picture: how many parts are tinted, how many rims and lines are drawn.
+    fn described_marks(&self) -> Object {
+        let marks = self.highlight();
+        let out = Object::new();
+        put(&out, "tinted", number(marks.tinted.len()));
+        put(&out, "rims", number(marks.rims.len()));
+        put(&out, "lines", number(marks.sketch.len()));
+        out
     }
 
     /// Where a place is in the window, in CSS pixels.

@@ -2,7 +2,7 @@
 
 use super::page::{Page, act};
 use super::{commands, dom, files};
-use crate::tool::{Arrow, Axis, Selection, Surroundings, ToolKey, ToolKind, nudge_direction};
+use crate::tool::{Arrow, Axis, Selection, Surroundings, Toggle, ToolKey, ToolKind, nudge_direction};
 use ductile_spec::{Edit, Request};
 use wasm_bindgen::JsCast;
 use web_sys::{Element, KeyboardEvent};
@@ -82,7 +82,7 @@ fn is_understood(key: &Key) -> bool {
     match name.as_str() {
         // Tab walks only where there is something to walk through and the canvas has the focus.
         "tab" => key.on_canvas && has_canvas_focus() && has_points(),
-        "escape" | "enter" | "backspace" | "delete" | " " | "home" | "." | "?" | "\\" | "h" => true,
+        "escape" | "enter" | "backspace" | "delete" | " " | "home" | "." | "?" | "\\" | "h" | "r" => true,
         "arrowleft" | "arrowright" | "arrowup" | "arrowdown" => true,
         _ => {
             let is_view = digit(&key.code).is_some_and(|digit| "01357".contains(digit));
@@ -118,6 +118,10 @@ impl Page {
             drag.toggle(axis);
             self.follow_cursor();
             self.refresh();
+            return;
+        }
+        if let Some(toggle) = Toggle::of_key(self.tools.kind(), &name) {
+            self.turn(toggle);
             return;
         }
         if let Some(kind) = ToolKind::of_key(&name).filter(|_| self.hand.drag.is_none()) {
@@ -158,6 +162,7 @@ impl Page {
     fn plain_key(&mut self, name: &str, key: &Key) {
         match name {
             "escape" => self.escape(),
+            "enter" if self.tools.kind() == ToolKind::Merge => self.merge_closest(),
             "enter" => self.tool_key(ToolKey::Done),
             "backspace" if self.tools.is_under_way() => self.tool_key(ToolKey::Back),
             "backspace" | "delete" => self.delete_selected(),
@@ -196,7 +201,12 @@ impl Page {
     }
 
     pub(crate) fn tool_key(&mut self, key: ToolKey) {
-        let around = Surroundings { structure: &self.scene.structure, forward: self.camera.forward() };
+        let around = Surroundings {
+            structure: &self.scene.structure,
+            document: &self.document,
+            forward: self.camera.forward(),
+            radius: self.suited_radius(),
+        };
         let acts = self.tools.key(key, around);
         self.perform(acts);
     }

@@ -13,7 +13,7 @@ use crate::limit::Limit;
 use crate::memory::Memory;
 use crate::schedule::Schedule;
 use crate::tool::{Selection, Toolbox};
-use crate::{Camera, Scene};
+use crate::{Camera, Rims, Scene};
 use ductile_spec::{Committed, Document, Request, SurfaceId};
 use glam::Vec3;
 use std::cell::RefCell;
@@ -42,6 +42,8 @@ pub(crate) struct Page {
     /// Which surface was clicked last, and where: the place names a region of it.
     pub(crate) picked: Option<(SurfaceId, Vec3)>,
     pub(crate) hand: Hand,
+    /// The rims of the newest structure for which a tool wanted them.
+    pub(crate) rims: Rims,
     pub(crate) schedule: Schedule,
     pub(crate) port: Port,
     pub(crate) restarts: Limit,
@@ -104,6 +106,7 @@ pub(crate) fn start() {
         selection: Selection::None,
         picked: None,
         hand: Hand::default(),
+        rims: Rims::default(),
         schedule: Schedule::default(),
         port: Port::default(),
         restarts: Limit::new(MOST_RETRIES, RETRY_MILLISECONDS),

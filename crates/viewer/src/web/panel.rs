@@ -101,6 +101,7 @@ impl Page {
     fn show_figures(&self) {
         let figures = &self.scene.header.figures;
         let rests = self.schedule.is_at_rest();
+        dom::text(&dom::element("figure-topology"), &self.topology_text());
         dom::text(&dom::element("figure-nodes"), &format!("{} nodes", figures.nodes));
         dom::text(&dom::element("figure-energy"), &format!("energy {:.4}", whole_zero(figures.energy)));
         dom::class(&dom::element("state-dot"), "rest", rests);
@@ -135,6 +136,7 @@ impl Page {
             let button = dom::element(&format!("tool-{}", kind.word()));
             dom::attribute(&button, "aria-pressed", if chosen { "true" } else { "false" });
         }
+        self.show_options();
     }
 
     fn show_history(&self) {
@@ -220,11 +222,17 @@ impl Page {
             _ => None,
         };
         let hangs = role.is_some_and(|role| role != PointRole::Free);
+        let turns = match self.selection {
+            Selection::Surface(_) => self.summary_shown().is_some_and(|summary| summary.orientable),
+            _ => false,
+        };
+        dom::show(&dom::element("reverse"), turns);
         dom::show(&dom::element("release"), hangs);
         dom::show(&dom::element("delete"), self.selection != Selection::None && !hangs);
         self.show_tangent();
         self.show_normal();
         self.show_ribbon();
+        self.show_extent();
         let facts = dom::element("facts");
         dom::clear(&facts);
         for (name, value) in self.facts(role) {
@@ -261,15 +269,33 @@ impl Page {
                     ("Points", through.to_string()),
                 ]
             }
-            Selection::Surface(id) => {
-                let surface = structure.surfaces.iter().find(|surface| surface.id == id);
-                surface.map(|surface| topology(&surface.summary)).unwrap_or_default()
-            }
-            Selection::None => match structure.surfaces.as_slice() {
-                [only] => topology(&only.summary),
-                _ => Vec::new(),
-            },
+            Selection::Surface(_) | Selection::None => self.summary_shown().map(topology).unwrap_or_default(),
         }
+    }
+
+    /// The topology that is shown: of the selected surface, or of the only one.
+    fn summary_shown(&self) -> Option<&SurfaceSummary> {
+        let surfaces = &self.scene.structure.surfaces;
+        match (self.selection, surfaces.as_slice()) {
+            (Selection::Surface(id), _) => surfaces.iter().find(|surface| surface.id == id),
+            (_, [only]) => Some(only),
+            _ => None,
+        }
+        .map(|surface| &surface.summary)
+    }
+
+    /// The same in one line.
+    fn topology_text(&self) -> String {
+        let Some(summary) = self.summary_shown() else { return String::new() };
+        let kind = if summary.orientable { "genus" } else { "crosscaps" };
+        let boundaries = match summary.boundaries {
+            0 => "closed".to_owned(),
+            1 => "1 boundary".to_owned(),
+            n => format!("{n} boundaries"),
+        };
+        let sides = if summary.orientable { "orientable" } else { "one-sided" };
+        let euler = summary.euler.to_string().replace('-', "\u{2212}");
+        format!("χ {euler} · {kind} {} · {boundaries} · {sides}", summary.genus)
     }
 }
 

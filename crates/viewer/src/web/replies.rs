@@ -182,6 +182,8 @@ impl Page {
                 self.openings += 1;
                 self.selection = Selection::None;
                 self.tools.choose(ToolKind::Shape);
+                // Lengths of one model mean nothing in another.
+                self.tools.options_mut().radius = None;
                 if !std::mem::take(&mut self.falling_back) {
                     self.notices.dismiss("opening");
                 }

@@ -7,7 +7,7 @@ use super::dom;
 use super::page::{MOST_RETRIES, Page, RETRY_MILLISECONDS, act};
 use crate::limit::Limit;
 use crate::tool::{Arm, Selection, ToolKind, ghost_line, work_plane};
-use crate::{GpuError, Highlight, Hit, Look, Renderer};
+use crate::{GpuError, Highlight, Look, Renderer, Tinted, drape};
 use ductile_spec::GrabTarget;
 use glam::Vec3;
 use wasm_bindgen::closure::Closure;
@@ -256,7 +256,7 @@ impl Page {
     }
 
     /// What the pointer and the tools mark.
-    fn highlight(&self) -> Highlight {
+    pub(crate) fn highlight(&self) -> Highlight {
         let mut mark = Highlight {
             hover: self.hand.hover,
             hover_view: self.hand.hover_view,
@@ -268,7 +268,7 @@ impl Page {
         match self.selection {
             Selection::Point(id) => mark.selected.push(id),
             Selection::Curve(id) => mark.selected_curve = Some(id),
-            Selection::Surface(id) => mark.tinted.push(id),
+            Selection::Surface(id) => mark.tinted.push(Tinted::Surface(id)),
             Selection::None => {}
         }
         if self.tools.holds() {
@@ -280,13 +280,16 @@ impl Page {
             mark.arms = self.arms().iter().map(|arm| (arm.foot, arm.end, is_hot(arm))).collect();
         }
         match self.tools.kind() {
-            ToolKind::Curve => self.mark_curve(&mut mark),
             ToolKind::Point if mark.hover.is_none() => {
                 let at = self.hand.cursor.filter(|_| self.hand.hover_view.is_none());
                 mark.ghost.extend(at.and_then(|at| self.place_on_plane(at, self.hand.modifiers)));
             }
-            ToolKind::Sweep => mark.selected_curve = self.tools.sweep_from().or(mark.selected_curve),
-            _ => {}
+            ToolKind::Shape | ToolKind::Sheet | ToolKind::Point => {}
+            ToolKind::Curve | ToolKind::Draw => self.mark_curve(&mut mark),
+            ToolKind::Burnout | ToolKind::Crease | ToolKind::Split => self.mark_region(&mut mark),
+            ToolKind::Sweep | ToolKind::Match => self.mark_ties(&mut mark),
+            ToolKind::Glue => self.mark_rims(&mut mark),
+            ToolKind::Merge | ToolKind::Trim => self.mark_places(&mut mark),
         }
         mark
     }
@@ -297,7 +300,8 @@ impl Page {
         mark.ghost.clone_from(&corners);
         let over = match (self.hand.cursor, self.hand.hover) {
             (None, _) => None,
-            (_, Some(Hit::Point { at, .. } | Hit::Curve { at, .. } | Hit::Surface { at, .. })) => Some(at),
+            (_, Some(hit)) => Some(hit.at()),
+            (Some(_), None) if self.tools.kind() == ToolKind::Draw => None,
             (Some(cursor), None) => self.place_on_plane(cursor, self.hand.modifiers),
         };
         let on_corner = self.hand.cursor.and_then(|cursor| self.corner_at(cursor));
@@ -307,6 +311,11 @@ impl Page {
             mark.ghost.push(at);
         }
         mark.ghost_line = ghost_line(&corners, closes);
+        if let Some(surface) = self.tools.canvas() {
+            // As far as the spline can stray from its chords on a shape of this size.
+            let reach = 0.5 * self.scene.ball_of(surface).map_or(0.0, |(_, radius)| radius);
+            mark.ghost_line = drape(&self.scene, &self.camera, surface, &mark.ghost_line, reach);
+        }
     }
 }
 

@@ -1,0 +1,140 @@
+//! The tools by name: their words, their keys, what they may take.
+
+use crate::Hit;
+use ductile_spec::{CurveRole, PointRole, Structure};
+
+use super::{entry, span};
+
+/// The tools, in the order of the bar.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ToolKind {
+    /// Takes hold of anything.
+    #[default]
+    Shape,
+    /// Places control points.
+    Point,
+    /// Makes curves through points.
+    Curve,
+    /// Draws curves on surfaces.
+    Draw,
+    /// Skins a closed curve.
+    Sheet,
+    /// Skins the space between two curves.
+    Sweep,
+    /// Destroys a region.
+    Burnout,
+    /// Makes creases, and smooths them.
+    Crease,
+    /// Cuts surfaces apart.
+    Split,
+    /// Joins two rims.
+    Glue,
+    /// Makes a tube between two places.
+    Merge,
+    /// Cuts two surfaces where they meet, and joins them there.
+    Trim,
+    /// Lets a curve grow or shrink to the size of another; a button of the properties, not of the bar.
+    Match,
+}
+
+impl ToolKind {
+    /// Those of the bar.
+    pub const ALL: [Self; 12] = [
+        Self::Shape,
+        Self::Point,
+        Self::Curve,
+        Self::Draw,
+        Self::Sheet,
+        Self::Sweep,
+        Self::Burnout,
+        Self::Crease,
+        Self::Split,
+        Self::Glue,
+        Self::Merge,
+        Self::Trim,
+    ];
+
+    /// Its word in the page: `tool-shape` is its button.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Shape => "shape",
+            Self::Point => "point",
+            Self::Curve => "curve",
+            Self::Draw => "draw",
+            Self::Sheet => "sheet",
+            Self::Sweep => "sweep",
+            Self::Burnout => "burnout",
+            Self::Crease => "crease",
+            Self::Split => "split",
+            Self::Glue => "glue",
+            Self::Merge => "merge",
+            Self::Trim => "trim",
+            Self::Match => "match",
+        }
+    }
+
+    /// The tool that a key chooses.
+    #[must_use]
+    pub fn of_key(key: &str) -> Option<Self> {
+        match key {
+            "v" => Some(Self::Shape),
+            "p" => Some(Self::Point),
+            "c" => Some(Self::Curve),
+            "d" => Some(Self::Draw),
+            "s" => Some(Self::Sheet),
+            "w" => Some(Self::Sweep),
+            "b" => Some(Self::Burnout),
+            "k" => Some(Self::Crease),
+            "x" => Some(Self::Split),
+            "g" => Some(Self::Glue),
+            "m" => Some(Self::Merge),
+            "t" => Some(Self::Trim),
+            _ => None,
+        }
+    }
+
+    /// Whether it takes control points.
+    #[must_use]
+    pub fn wants_points(self) -> bool {
+        matches!(self, Self::Shape | Self::Point | Self::Curve | Self::Draw)
+    }
+
+    /// Whether it takes curves.
+    #[must_use]
+    pub fn wants_curves(self) -> bool {
+        !matches!(self, Self::Burnout | Self::Glue | Self::Merge | Self::Trim)
+    }
+
+    /// Whether it takes surfaces, or places on them.
+    #[must_use]
+    pub fn wants_surfaces(self) -> bool {
+        !matches!(self, Self::Sheet | Self::Sweep | Self::Match)
+    }
+
+    /// Whether it acts on a whole region rather than at a place.
+    #[must_use]
+    pub fn wants_regions(self) -> bool {
+        matches!(self, Self::Burnout | Self::Crease | Self::Split)
+    }
+
+    /// Whether a click on a thing could lead to anything. What is marked under the pointer is what would be taken.
+    #[must_use]
+    pub fn takes(self, hit: &Hit, structure: &Structure) -> bool {
+        let curve = |id| span(structure, id);
+        match (self, hit) {
+            (Self::Draw, Hit::Point { id, .. }) => {
+                entry(structure, *id).is_some_and(|point| point.role != PointRole::Free)
+            }
+            (Self::Draw | Self::Crease | Self::Split, Hit::Curve { id, .. }) => {
+                curve(*id).is_some_and(|curve| curve.role != CurveRole::Free)
+            }
+            (Self::Sheet | Self::Match, Hit::Curve { id, .. }) => {
+                curve(*id).is_some_and(|curve| curve.closed)
+            }
+            (_, Hit::Point { .. }) => self.wants_points(),
+            (_, Hit::Curve { .. }) => self.wants_curves(),
+            (_, Hit::Surface { .. }) => self.wants_surfaces(),
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! How the tools that join things do it: choices that stay from one use to the next.
+
+use super::ToolKind;
+
+/// The choices.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    /// Sweep and Glue: the other way round than lies nearest. Only for the act under way.
+    pub reversed: bool,
+    /// Glue: with a band between the rims.
+    pub skirt: bool,
+    /// Trim: smooth where the surfaces join, instead of a crease.
+    pub smooth: bool,
+    /// Merge: the rims of the tube stay as control curves.
+    pub keep: bool,
+    /// Merge: radius of the tube in model units; what suits the model while nobody chose.
+    pub radius: Option<f64>,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { reversed: false, skirt: true, smooth: false, keep: true, radius: None }
+    }
+}
+
+/// A choice that is on or off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Toggle {
+    /// [`Options::reversed`].
+    Reversed,
+    /// [`Options::skirt`].
+    Skirt,
+    /// [`Options::smooth`].
+    Smooth,
+    /// [`Options::keep`].
+    Keep,
+}
+
+impl Toggle {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Reversed, Self::Skirt, Self::Smooth, Self::Keep];
+
+    /// Its word in the page: `option-skirt` is its button.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Reversed => "reversed",
+            Self::Skirt => "skirt",
+            Self::Smooth => "smooth",
+            Self::Keep => "keep",
+        }
+    }
+
+    /// The choice that a key turns while a tool is in hand.
+    #[must_use]
+    pub fn of_key(kind: ToolKind, key: &str) -> Option<Self> {
+        let toggle = match key {
+            "r" => Self::Reversed,
+            "s" if kind == ToolKind::Glue => Self::Skirt,
+            "s" => Self::Smooth,
+            "k" => Self::Keep,
+            _ => return None,
+        };
+        toggle.serves(kind).then_some(toggle)
+    }
+
+    /// Whether a tool has this choice.
+    #[must_use]
+    pub fn serves(self, kind: ToolKind) -> bool {
+        match self {
+            Self::Reversed => matches!(kind, ToolKind::Sweep | ToolKind::Glue),
+            Self::Skirt => kind == ToolKind::Glue,
+            Self::Smooth => kind == ToolKind::Trim,
+            Self::Keep => kind == ToolKind::Merge,
+        }
+    }
+}
+
+impl Options {
+    /// Whether a choice is on.
+    #[must_use]
+    pub fn is_on(&self, toggle: Toggle) -> bool {
+        match toggle {
+            Toggle::Reversed => self.reversed,
+            Toggle::Skirt => self.skirt,
+            Toggle::Smooth => self.smooth,
+            Toggle::Keep => self.keep,
+        }
+    }
+
+    /// Turns a choice.
+    pub fn turn(&mut self, toggle: Toggle) {
+        let choice = match toggle {
+            Toggle::Reversed => &mut self.reversed,
+            Toggle::Skirt => &mut self.skirt,
+            Toggle::Smooth => &mut self.smooth,
+            Toggle::Keep => &mut self.keep,
+        };
+        *choice = !*choice;
+    }
+}

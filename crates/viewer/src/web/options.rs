@@ -1,0 +1,89 @@
+//! The strip beside the hint: the choices of the tool in hand, and the radius of a tube.
+
+use super::dom;
+use super::page::Page;
+use crate::input::Modifiers;
+use crate::number;
+use crate::tool::{Toggle, ToolKind};
+use glam::Vec2;
+
+/// The field of the radius in index.html.
+pub(crate) const FIELD: &str = "tube-radius";
+
+/// Growth of the radius per pixel of the wheel: a notch is a tenth.
+const WHEEL_GROWTH: f64 = 0.001;
+/// What suits a model: a part of its radius.
+const SUITED: f32 = 0.15;
+
+impl Page {
+    /// Shows the choices of the tool in hand.
+    pub(crate) fn show_options(&self) {
+        let kind = self.tools.kind();
+        let mut any = kind == ToolKind::Merge;
+        dom::show(&dom::element("tube"), any);
+        for toggle in Toggle::ALL {
+            let button = dom::element(&format!("option-{}", toggle.word()));
+            let serves = toggle.serves(kind);
+            any |= serves;
+            dom::show(&button, serves);
+            let is_on = self.tools.options().is_on(toggle);
+            dom::attribute(&button, "aria-pressed", if is_on { "true" } else { "false" });
+        }
+        dom::show(&dom::element("options"), any);
+    }
+
+    /// Turns a choice.
+    pub(crate) fn turn(&mut self, toggle: Toggle) {
+        self.tools.options_mut().turn(toggle);
+        self.refresh();
+    }
+
+    /// The radius that a tube has while nobody chose another, of few digits.
+    pub(crate) fn suited_radius(&self) -> f64 {
+        let first = self.tools.first_place().and_then(|place| self.scene.ball_of(place.surface));
+        let (_, radius) = first.or_else(|| self.scene.bounds()).unwrap_or((glam::Vec3::ZERO, 1.0));
+        short(f64::from(SUITED * radius), 1)
+    }
+
+    /// The radius that a tube would have.
+    pub(crate) fn tube_radius(&self) -> f64 {
+        self.tools.options().radius.unwrap_or_else(|| self.suited_radius())
+    }
+
+    pub(crate) fn tube_radius_text(&self) -> String {
+        number::show(self.tube_radius())
+    }
+
+    /// The wheel changes the radius while the end of a tube is chosen; says whether it did.
+    pub(crate) fn turn_radius(&mut self, by: Vec2, modifiers: Modifiers) -> bool {
+        let chooses = self.tools.kind() == ToolKind::Merge && self.tools.first_place().is_some();
+        if !chooses || modifiers.ctrl || modifiers.shift || !by.is_finite() {
+            return false;
+        }
+        let grown = self.tube_radius() * (f64::from(-by.y) * WHEEL_GROWTH).clamp(-1.0, 1.0).exp();
+        self.tools.options_mut().radius = Some(short(grown.clamp(1e-4, 1e5), 2));
+        self.refresh();
+        true
+    }
+
+    /// Takes what was typed; says what is wrong with it.
+    pub(crate) fn typed_tube_radius(&mut self, text: &str) -> Option<String> {
+        let radius = if text.trim().is_empty() {
+            None
+        } else {
+            match number::parse(text) {
+                Ok(value) if value > 0.0 => Some(value),
+                Ok(_) => return Some("A radius is above 0.".to_owned()),
+                Err(error) => return Some(error.to_string()),
+            }
+        };
+        self.tools.options_mut().radius = radius;
+        self.refresh();
+        None
+    }
+}
+
+/// A number of few digits after the first.
+fn short(value: f64, digits: usize) -> f64 {
+    format!("{value:.digits$e}").parse().unwrap_or(value)
+}
