@@ -1,12 +1,14 @@
 //! `ductile`: the modeler without a window. Specification in, mesh and numbers out.
 //!
-//! Exit status: 0 when it worked, 1 when the shape did not come to rest or a reference file is not verified, 2 when the
-//! input or the command is bad.
+//! Exit status: 0 when it worked, 1 when the shape did not come to rest, an act of a script was refused or a reference file
+//! is not verified, 2 when the input or the command is bad.
 //! Results go to standard output or files, everything else to standard error.
 
 mod check;
 mod input;
 mod link;
+mod run;
+mod script;
 mod solve;
 mod verify;
 
@@ -31,6 +33,8 @@ enum Command {
         /// Spec file, or - for standard input
         file: PathBuf,
     },
+    /// Do the acts of a script and write the document, the mesh or a report
+    Run(run::Options),
     /// Print the share link of a specification
     Link {
         /// Spec file, or - for standard input
@@ -52,6 +56,7 @@ fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let outcome = match arguments.command {
         Command::Solve(options) => solve::run(&options),
+        Command::Run(options) => run::run(&options),
         Command::Check { file } => check::run(&file).map(|()| ExitCode::SUCCESS),
         Command::Link { spec, base } => link::link(&spec, &base).map(|()| ExitCode::SUCCESS),
         Command::Verify(options) => verify::run(&options),

@@ -39,8 +39,9 @@ struct Report<'a> {
     surfaces: Vec<SurfaceReport>,
 }
 
+/// The mesh and the topology of a surface.
 #[derive(Serialize)]
-struct SurfaceReport {
+pub(crate) struct SurfaceReport {
     id: u32,
     vertices: u32,
     triangles: u32,
@@ -103,7 +104,14 @@ fn report<'a>(
     seconds: f64,
     structure: &Structure,
 ) -> Report<'a> {
-    let surfaces = structure
+    let surfaces = surface_reports(structure);
+    let Figures { nodes, energy, residual, steps, rescues, .. } = *figures;
+    Report { name, at_rest, nodes, energy, residual, steps, rescues, seconds, surfaces }
+}
+
+/// Mesh and topology of every surface.
+pub(crate) fn surface_reports(structure: &Structure) -> Vec<SurfaceReport> {
+    structure
         .surfaces
         .iter()
         .map(|span| SurfaceReport {
@@ -116,7 +124,5 @@ fn report<'a>(
             orientable: span.summary.orientable,
             genus: span.summary.genus,
         })
-        .collect();
-    let Figures { nodes, energy, residual, steps, rescues, .. } = *figures;
-    Report { name, at_rest, nodes, energy, residual, steps, rescues, seconds, surfaces }
+        .collect()
 }

@@ -1,0 +1,96 @@
+//! `ductile run`: scripts of acts, what they make, and where they stop.
+
+#![allow(clippy::unwrap_used, reason = "a failing test should stop where it fails")]
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+/// A closed curve, its sheet, a place pulled up.
+const HILL: &str = r#"[
+  {"curve": {"through": [{"place": [1, 0, 0]}, {"place": [0, 1, 0]}, {"place": [-1, 0, 0]}, {"place": [0, -1, 0]}], "closed": true}},
+  {"sheet": {"boundary": 1}},
+  {"spacing": {"of": "document", "spacing": 0.15}},
+  {"pin": {"surface": 1, "at": [0, 0, 0]}},
+  {"move": {"point": 5, "to": [0, 0, 0.5]}},
+  "rest"
+]"#;
+
+fn run(folder: &Path, script: &str, more: &[&str]) -> Output {
+    let file = folder.join("script.json");
+    std::fs::write(&file, script).unwrap();
+    let arguments = ["run", file.to_str().unwrap()].into_iter().chain(more.iter().copied());
+    Command::new(env!("CARGO_BIN_EXE_ductile")).args(arguments).output().unwrap()
+}
+
+fn json(output: &Output) -> serde_json::Value {
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+fn said(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+#[test]
+fn a_script_makes_a_document_a_mesh_and_a_report() {
+    let folder = tempfile::tempdir().unwrap();
+    let [spec, obj] = ["hill.ductile.json", "hill.obj"].map(|name| folder.path().join(name));
+    let (spec, obj) = (spec.to_str().unwrap(), obj.to_str().unwrap());
+    let done = run(folder.path(), HILL, &["-o", spec, "--obj", obj, "--json"]);
+    assert!(done.status.success(), "{}", said(&done));
+    let report = json(&done);
+    assert_eq!(report["acts"][0]["made"], serde_json::json!({"points": [1, 2, 3, 4], "curves": [1]}));
+    assert_eq!(report["acts"][1]["made"], serde_json::json!({"surfaces": [1]}));
+    assert!(report["acts"][5]["steps"].as_u64().unwrap() > 0);
+    assert_eq!((&report["at_rest"], &report["refused"]), (&true.into(), &serde_json::Value::Null));
+    assert!(report["energy"].as_f64().unwrap() > 1.0);
+    assert_eq!(report["surfaces"][0]["euler_characteristic"], 1);
+    let document = ductile_spec::from_text(&std::fs::read_to_string(spec).unwrap()).unwrap();
+    assert_eq!((document.points.len(), document.curves.len(), document.surfaces.len()), (5, 1, 1));
+    assert!(std::fs::read_to_string(obj).unwrap().lines().any(|line| line.starts_with("f ")));
+
+    // The document goes on where it stopped, and an act taken back leaves no trace.
+    let more = r#"[{"release": {"point": 5}}, "undo", "redo", "undo"]"#;
+    let again = run(folder.path(), more, &["--from", spec, "-o", "-"]);
+    assert!(again.status.success(), "{}", said(&again));
+    assert_eq!(ductile_spec::from_text(&String::from_utf8(again.stdout).unwrap()).unwrap(), document);
+}
+
+#[test]
+fn the_first_refusal_ends_a_script_and_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let spec = folder.path().join("none.ductile.json");
+    let script =
+        r#"[{"point": {"at": [0, 0, 0]}}, {"sheet": {"boundary": 7}}, {"point": {"at": [1, 0, 0]}}]"#;
+    let stopped = run(folder.path(), script, &["-o", spec.to_str().unwrap(), "--json"]);
+    assert_eq!(stopped.status.code(), Some(1));
+    assert!(said(&stopped).contains("act 2 (sheet): curve 7 does not exist"), "{}", said(&stopped));
+    let report = json(&stopped);
+    assert_eq!((&report["refused"], report["acts"].as_array().unwrap().len()), (&2.into(), 2));
+    assert!(!spec.exists(), "nothing is written of what was not done");
+}
+
+#[test]
+fn what_does_not_come_to_rest_in_time_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let stopped = run(folder.path(), HILL, &["--steps", "1"]);
+    assert_eq!(stopped.status.code(), Some(1));
+    assert!(said(&stopped).contains("act 6 (rest): not at rest after 1 steps"), "{}", said(&stopped));
+}
+
+#[test]
+fn a_text_that_is_no_script_is_bad_input() {
+    let folder = tempfile::tempdir().unwrap();
+    for (script, says) in
+        [("{", "not JSON"), ("[\"hurry\"]", "act 1 is none"), ("[{\"sheet\": 1}]", "act 1 is none")]
+    {
+        let refused = run(folder.path(), script, &[]);
+        assert_eq!(refused.status.code(), Some(2));
+        assert!(
+            said(&refused).contains("script.json: ") && said(&refused).contains(says),
+            "{}",
+            said(&refused)
+        );
+    }
+    let both = run(folder.path(), "[]", &["--json", "-o", "-"]);
+    assert_eq!(both.status.code(), Some(2));
+}
