@@ -94,3 +94,25 @@ fn a_text_that_is_no_script_is_bad_input() {
     let both = run(folder.path(), "[]", &["--json", "-o", "-"]);
     assert_eq!(both.status.code(), Some(2));
 }
+
+/// The acts that a text shows between backquotes.
+fn acts_in(text: &str) -> Vec<&str> {
+    text.split('`').filter(|part| part.starts_with("{\"") && !part.contains("\"at\": [x")).collect()
+}
+
+#[test]
+fn every_act_of_the_user_guide_is_understood() {
+    let guide = include_str!("../../../docs/user-guide.md");
+    let mut acts = acts_in(guide);
+    // Parts of acts, which the guide shows as well.
+    acts.retain(|act| {
+        !["curve\": 1}", "surface\": 1}", "region\": {\"surf", "cross"]
+            .iter()
+            .any(|part| act[2..].starts_with(part))
+    });
+    assert!(acts.len() > 25, "{}", acts.len());
+    for act in acts {
+        let read: Result<ductile_spec::Edit, _> = serde_json::from_str(act);
+        assert!(read.is_ok(), "{act}: {}", read.unwrap_err());
+    }
+}

@@ -11,7 +11,7 @@ use glam::Vec2;
 pub(crate) const FIELD: &str = "tube-radius";
 
 /// Growth of the radius per pixel of the wheel: a notch is a tenth.
-const WHEEL_GROWTH: f64 = 0.001;
+const WHEEL_GROWTH: f32 = 0.001;
 /// What suits a model: a part of its radius.
 const SUITED: f32 = 0.15;
 
@@ -60,7 +60,7 @@ impl Page {
         if !chooses || modifiers.ctrl || modifiers.shift || !by.is_finite() {
             return false;
         }
-        let grown = self.tube_radius() * (f64::from(-by.y) * WHEEL_GROWTH).clamp(-1.0, 1.0).exp();
+        let grown = self.tube_radius() * f64::from((-by.y * WHEEL_GROWTH).clamp(-1.0, 1.0).exp());
         self.tools.options_mut().radius = Some(short(grown.clamp(1e-4, 1e5), 2));
         self.refresh();
         true

@@ -1,0 +1,59 @@
+// Documents for the tests of surgery: rings of four points, with or without a disc.
+
+/** Four points on a circle, counted from `first`. */
+function circle(first, radius, z = 0) {
+  const places = [[radius, 0, z], [0, radius, z], [-radius, 0, z], [0, -radius, z]];
+  return Object.fromEntries(places.map((place, index) => [first + index, place]));
+}
+
+const through = (first) => ({ through: [0, 1, 2, 3].map((index) => first + index), closed: true });
+
+/** A disc with a closed curve in it: surface 1, its rim curve 1, the curve in it 2. */
+export const ringedDisc = {
+  ductile: 1,
+  name: "Ringed disc",
+  spacing: 0.1,
+  points: { ...circle(1, 1), ...circle(5, 0.5) },
+  curves: { 1: through(1), 2: through(5) },
+  surfaces: {
+    1: {
+      skeleton: {
+        vertices: [1, 2, 3, 4, 5, 6, 7, 8],
+        triangles: [
+          ...[0, 1, 2, 3].flatMap((i) => [[i, (i + 1) % 4, 4 + i], [(i + 1) % 4, 4 + ((i + 1) % 4), 4 + i]]),
+          [4, 5, 6],
+          [4, 6, 7],
+        ],
+        curves: [{ curve: 1, along: [0, 1, 2, 3] }, { curve: 2, along: [4, 5, 6, 7] }],
+      },
+    },
+  },
+};
+
+/** Two free circles over one another, curves 1 and 2, the upper one half as wide. */
+export const twoRings = {
+  ductile: 1,
+  name: "Two rings",
+  spacing: 0.12,
+  points: { ...circle(1, 1), ...circle(5, 0.5, 0.8) },
+  curves: { 1: through(1), 2: through(5) },
+};
+
+/** Two flat discs over one another: surfaces 1 and 2 with their rims, curves 1 and 2. */
+export const twoDiscs = {
+  ...twoRings,
+  name: "Two discs",
+  points: { ...circle(1, 0.8), ...circle(5, 0.8, 0.9) },
+  surfaces: Object.fromEntries(
+    [[1, 1], [2, 5]].map(([id, first]) => [
+      id,
+      {
+        skeleton: {
+          vertices: [first, first + 1, first + 2, first + 3],
+          triangles: [[0, 1, 2], [0, 2, 3]],
+          curves: [{ curve: id, along: [0, 1, 2, 3] }],
+        },
+      },
+    ]),
+  ),
+};

@@ -1,0 +1,201 @@
+// The tools of surgery, by real pointer events: what they mark before a click, what they make, what they refuse and why.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { atRest, distance, documentOf, drawn, wide } from "./support/model.mjs";
+import { inspect, until, untilInspect, withPage } from "./support/page.mjs";
+import { at, pixels } from "./support/pixels.mjs";
+import { ringedDisc, twoDiscs, twoRings } from "./support/rings.mjs";
+
+/** Opens a document from an address. */
+function withDocument(document, body) {
+  const extra = { "/spec.json": { type: "application/json", body: JSON.stringify(document) } };
+  return withPage({ viewport: wide, extra, query: "?spec=spec.json" }, async (page) => {
+    const opened = await atRest(page, ({ name }) => name === document.name);
+    await body(page, opened);
+  });
+}
+
+/** A place on a curve clear of panels and toasts: the sample farthest to the left. */
+function onCurve(state, id) {
+  const { screen } = state.curves.find((curve) => curve.id === id);
+  return screen.reduce((left, place) => (place[0] < left[0] ? place : left));
+}
+
+/** The middle of a curve's picture. */
+function middleOf(state, id) {
+  const { screen } = state.curves.find((curve) => curve.id === id);
+  return [0, 1].map((axis) => screen.reduce((sum, place) => sum + place[axis], 0) / screen.length);
+}
+
+/** Waits until the pointer is seen where it was put: what is marked is what the tool would take. */
+async function hover(page, place, marked) {
+  await page.mouse.move(...place);
+  return untilInspect(page, (state) => marked(state));
+}
+
+/** Clicks, and waits for the act with this name and for rest. */
+async function clickFor(page, place, act, predicate = () => true) {
+  await page.mouse.click(...place);
+  return atRest(page, (state) => state.act === act && predicate(state));
+}
+
+/** Fails unless the click changes nothing and the toast gives a reason. */
+async function refused(page, place, reason) {
+  const { document } = await inspect(page);
+  await page.mouse.click(...place);
+  const state = await untilInspect(page, ({ toast }) => toast !== null && reason.test(toast));
+  assert.equal(state.document, document, "the model is as it was");
+}
+
+/** Waits until the status line says this of the topology. */
+function topology(page, text) {
+  return until(page, (text) => document.getElementById("figure-topology").textContent === text, text, { timeout: 5000 });
+}
+
+const brightness = (colour) => colour.reduce((sum, channel) => sum + channel, 0);
+
+test("a region is tinted under the pointer, burnt out by a click, and given back by the toast", async () => {
+  await withDocument(ringedDisc, async (page, before) => {
+    await topology(page, "χ 1 · genus 0 · 1 boundary · orientable");
+    const inside = middleOf(before, 2);
+    const [rim, ring] = [1, 2].map((id) => onCurve(before, id));
+    const between = [0, 1].map((axis) => (rim[axis] + ring[axis]) / 2);
+    await drawn(page);
+    const plain = await pixels(page);
+    await page.keyboard.press("b");
+    await hover(page, inside, ({ marked }) => marked.tinted === 1);
+    await drawn(page);
+    const tinted = await pixels(page);
+    const change = (place) => distance(at(plain, ...place), at(tinted, ...place));
+    assert.ok(change([inside[0] + 24, inside[1] - 8]) > 15, "the region under the pointer is tinted");
+    assert.ok(change(between) < 6, "the one beside it is not");
+
+    const burnt = await clickFor(page, inside, "Burn out");
+    assert.deepEqual(burnt.surfaces.map(({ summary }) => [summary.euler, summary.boundaries]), [[0, 2]]);
+    await topology(page, "χ 0 · genus 0 · 2 boundaries · orientable");
+    assert.equal(burnt.curves.find(({ id }) => id === 2).role, "Boundary");
+    await page.mouse.move(80, 300);
+    await drawn(page);
+    const holed = await pixels(page);
+    assert.ok(brightness(at(holed, ...inside)) > brightness(at(plain, ...inside)) + 20, "the ground shows through");
+    assert.equal(burnt.tool, "burnout", "the tool stays");
+
+    await page.locator("#toast-button").click();
+    const back = await atRest(page, ({ act }) => act === "Undo Burn out");
+    assert.equal(back.document, before.document);
+  });
+});
+
+test("K creases a curve, and smooths the crease; the same by a click on the region", async () => {
+  await withDocument(ringedDisc, async (page, before) => {
+    await page.keyboard.press("k");
+    await hover(page, onCurve(before, 2), ({ hover, marked }) => hover === "curve 2" && marked.tinted === 0);
+    const creased = await clickFor(page, onCurve(before, 2), "Crease");
+    assert.deepEqual(creased.surfaces.map(({ summary }) => summary.boundaries).sort(), [1, 2]);
+    assert.equal(creased.curves.length, 2, "both banks follow the same curve");
+    const smooth = await clickFor(page, onCurve(creased, 2), "Smooth");
+    assert.deepEqual(smooth.surfaces.map(({ summary }) => [summary.euler, summary.boundaries]), [[1, 1]]);
+    const middle = middleOf(smooth, 2);
+    await hover(page, middle, ({ marked }) => marked.tinted === 1);
+    await clickFor(page, middle, "Crease", ({ surfaces }) => surfaces.length === 2);
+    for (const act of ["Undo Crease", "Undo Smooth", "Undo Crease"]) {
+      await page.keyboard.press("Control+z");
+      await atRest(page, (state) => state.act === act);
+    }
+    assert.equal((await inspect(page)).document, before.document);
+  });
+});
+
+test("a split doubles the curve; both sides move apart", async () => {
+  await withDocument(ringedDisc, async (page, before) => {
+    await page.keyboard.press("x");
+    assert.equal((await inspect(page)).tool, "split");
+    const cut = await clickFor(page, middleOf(before, 2), "Split");
+    assert.deepEqual([cut.surfaces.length, cut.curves.length, cut.points.length], [2, 3, 12]);
+    await page.keyboard.press("Control+z");
+    assert.equal((await atRest(page, ({ act }) => act === "Undo Split")).document, before.document);
+  });
+});
+
+test("a sweep shows its ties over the second curve, R crosses them, and the skin is made", async () => {
+  await withDocument(twoRings, async (page, before) => {
+    const [low, high] = [1, 2].map((id) => onCurve(before, id));
+    await page.keyboard.press("w");
+    await page.mouse.click(...low);
+    await untilInspect(page, ({ underWay }) => underWay);
+    await hover(page, high, ({ marked, hover }) => hover === "curve 2" && marked.lines === 24);
+    await drawn(page);
+    const straight = await pixels(page);
+    await page.keyboard.press("r");
+    await until(page, () => document.getElementById("option-reversed").ariaPressed === "true");
+    await drawn(page);
+    const crossed = await pixels(page);
+    assert.notDeepEqual(straight.data, crossed.data, "other ties are shown");
+    await page.keyboard.press("r");
+    const swept = await clickFor(page, high, "Sweep");
+    assert.deepEqual(swept.surfaces.map(({ summary }) => [summary.euler, summary.boundaries]), [[0, 2]]);
+    assert.equal(swept.underWay, false);
+    await page.mouse.click(...low);
+    await untilInspect(page, ({ underWay }) => underWay);
+    await page.keyboard.press("Escape");
+    await untilInspect(page, ({ underWay, tool }) => !underWay && tool === "sweep");
+    await page.keyboard.press("Escape");
+    await untilInspect(page, ({ tool }) => tool === "shape");
+  });
+});
+
+test("a loop grows by a number or to the size of another", async () => {
+  await withDocument(twoRings, async (page, before) => {
+    await page.locator('#scene-list [data-subject="curve 2"]').click();
+    const shows = (text) =>
+      until(page, (text) => document.getElementById("loop-radius").value === text, text, { timeout: 5000 });
+    await shows("0.5");
+    await page.locator("#loop-radius").fill("0.3*2.5");
+    await page.keyboard.press("Enter");
+    await atRest(page, ({ act }) => act === "Expand");
+    await shows("0.75");
+    const radii = async () => [5, 6, 7, 8].map((id) => places[id]).map(([x, y]) => Math.hypot(x, y));
+    let places = (await documentOf(page)).points;
+    for (const radius of await radii()) assert.ok(Math.abs(radius - 0.75) < 1e-6, `${radius}`);
+
+    await page.locator("#match").click();
+    await untilInspect(page, ({ tool, underWay }) => tool === "match" && underWay);
+    await clickFor(page, onCurve(before, 1), "Expand", ({ tool }) => tool === "shape");
+    places = (await documentOf(page)).points;
+    for (const radius of await radii()) assert.ok(Math.abs(radius - 1) < 1e-6, `${radius}`);
+    for (const id of [5, 6, 7, 8]) assert.equal(places[id][2], 0.8);
+  });
+});
+
+test("a surface is turned inside out by its button", async () => {
+  await withDocument(ringedDisc, async (page, before) => {
+    assert.equal(await page.locator("#reverse").isVisible(), false, "nothing is selected");
+    await page.locator('#scene-list [data-subject="surface 1"]').click();
+    await page.locator("#reverse").click();
+    const turned = await atRest(page, ({ act }) => act === "Reverse");
+    assert.notEqual(turned.document, before.document);
+    assert.deepEqual(turned.surfaces[0].summary, before.surfaces[0].summary);
+  });
+});
+
+test("what does not apply is not marked, and is refused with its reason", async () => {
+  await withDocument(twoDiscs, async (page, before) => {
+    const rim = onCurve(before, 1);
+    await page.keyboard.press("b");
+    await refused(page, [400, 540], /no surface here/);
+    await page.keyboard.press("k");
+    await refused(page, rim, /Only one surface ends at this curve/);
+    await page.keyboard.press("x");
+    await refused(page, middleOf(before, 2), /single region: draw a closed curve/);
+    await refused(page, rim, /ends at this curve already/);
+    await page.keyboard.press("t");
+    await page.mouse.click(...middleOf(before, 2));
+    await untilInspect(page, ({ underWay }) => underWay);
+    await refused(page, middleOf(before, 2), /same surface/);
+    await page.keyboard.press("g");
+    await refused(page, [400, 540], /no rim here/);
+    await page.keyboard.press("d");
+    await refused(page, [400, 540], /drawn on a surface/);
+  });
+});
