@@ -24,6 +24,7 @@ mod dehydrate;
 #[cfg(test)]
 mod family;
 mod handle;
+mod intersect;
 pub mod io;
 mod label;
 pub mod measure;
@@ -32,6 +33,7 @@ mod place;
 pub mod primitive;
 #[cfg(test)]
 mod property_test;
+mod proximity;
 pub mod remesh;
 mod source;
 mod surgery;
@@ -43,10 +45,12 @@ pub use build::BuildError;
 pub use check::{Defect, validate, validate_curves};
 pub use dehydrate::{Dehydrated, dehydrate};
 pub use handle::{EdgeId, FaceId, HalfedgeId, VertexId};
+pub use intersect::{CommonLine, CommonPoint, IntersectError, Placed, intersections};
 pub use label::{Labels, components, regions};
 pub use measure::{Summary, boundary_loops, quality, summary};
 pub use orient::{is_orientable, propagate_orientation, reverse, reverse_face};
 pub use place::{Place, nearest_place};
+pub use proximity::{ClosestPair, SurfaceTree, refine_pair};
 pub use source::SourceTag;
 pub use surgery::{
     Blocked, Bridge, BridgeError, Bridged, CrossingVertex, Cut, CutError, GlueError, InsertError, Meeting,

@@ -155,7 +155,7 @@ impl Place {
 /// The place of the surface that is nearest to a point; among equals that of the lowest face. `None` where no face has finite
 /// positions, or the point is not finite.
 ///
-/// It looks at every face.
+/// It looks at every face. Who asks often builds a [`SurfaceTree`](crate::SurfaceTree).
 #[must_use]
 pub fn nearest_place(mesh: &Mesh, positions: &[DVec3], at: DVec3) -> Option<Place> {
     let mut best: Option<(f64, FaceId, [f64; 3])> = None;
