@@ -66,7 +66,7 @@ fn torus() -> String {
         }
     }
     format!(
-        r#"{{"ductile":1,"spacing":0.2,"points":{{{}}},"curves":{{"1":{{"through":[1,2,3],"closed":true}}}},
+        r#"{{"ductile":1,"spacing":0.12,"points":{{{}}},"curves":{{"1":{{"through":[1,2,3],"closed":true}}}},
         "surfaces":{{"1":{{"skeleton":{{"vertices":[{}],"triangles":{triangles:?},
         "curves":[{{"curve":1,"along":[0,1,2]}}]}}}}}}}}"#,
         points.join(","),
@@ -209,14 +209,12 @@ fn the_tube_of_a_torus_is_creased_on_one_surface_and_cut_to_a_cylinder() {
     let kinds = act(&mut bench, Edit::Crease { border: Border::Curve(CurveId(1)) });
     assert_eq!(kinds, [(1, 0, 2, true)]);
     assert_eq!(bench.document().points.len(), 12);
-    bench.rest(600);
     let why = refusal(&mut bench, Edit::Crease { border: Border::Curve(CurveId(1)) });
     assert!(why.contains("rim"), "{why}");
     let kinds = act(&mut bench, Edit::Smooth { curve: CurveId(1) });
     assert_eq!(kinds, [(1, 0, 0, true)]);
-    // It may have found a better valley on its way, but none below what every smooth torus has (Willmore): 8 pi^2.
     let again = bench.rest(600);
-    assert!(again > 78.9 && again < 1.01 * smooth, "{again} and {smooth}");
+    assert!((again - smooth).abs() < 0.01 * smooth, "{again} and {smooth}");
     let kinds = act(&mut bench, Edit::Split { border: Border::Curve(CurveId(1)) });
     assert_eq!(kinds, [(1, 0, 2, true)]);
     assert_eq!(bench.document().points.len(), 15);
@@ -283,4 +281,257 @@ fn what_cannot_be_cut_is_refused_with_a_reason() {
     let nowhere = on(1, DVec3::NAN);
     assert!(!refusal(&mut bench, Edit::Burnout { region: nowhere }).is_empty());
     assert!(!refusal(&mut bench, Edit::Reverse { surface: SurfaceId(7) }).is_empty());
+}
+
+/// Places on a circle in the plane.
+fn circle(radius: f64, count: u32, z: f64) -> Vec<DVec3> {
+    let at = |k: u32| {
+        let (sin, cos) = libm::sincos(f64::from(k) * core::f64::consts::TAU / f64::from(count));
+        dvec3(radius * cos, radius * sin, z)
+    };
+    (0..count).map(at).collect()
+}
+
+fn disc() -> Bench {
+    let mut bench = Bench::with(ductile_spec::Example::Disc);
+    bench.rest(600);
+    bench
+}
+
+fn s_loop(surface: u32, along: Vec<DVec3>, closed: bool) -> Edit {
+    Edit::SLoop { surface: SurfaceId(surface), along, closed }
+}
+
+#[test]
+fn a_loop_is_drawn_where_the_hand_was_and_the_shape_stays() {
+    let mut bench = disc();
+    let kinds = act(&mut bench, s_loop(1, circle(0.5, 5, 0.0), true));
+    assert_eq!(kinds, [(1, 1, 1, true)]);
+    bench.rest(600);
+    let model = bench.modeler.model();
+    let curve = &model.curves[&CurveId(2)];
+    assert!(curve.nodes.iter().all(|p| (p.length() - 0.5).abs() < 0.01), "{:?}", curve.nodes);
+    assert!(
+        curve.nodes.len() < 60,
+        "a sample for each spacing, not for each edge crossed: {}",
+        curve.nodes.len()
+    );
+    assert_eq!(ductile_mesh::regions(&model.surfaces[&SurfaceId(1)].mesh).count(), 2);
+    // Two regions: each can be burnt out.
+    let kinds = act(&mut bench, Edit::Burnout { region: on(1, DVec3::ZERO) });
+    assert_eq!(kinds, [(1, 0, 2, true)]);
+}
+
+#[test]
+fn an_open_curve_from_rim_to_rim_divides_the_disc() {
+    let mut bench = disc();
+    let kinds = act(
+        &mut bench,
+        s_loop(1, vec![dvec3(-1.0, 0.1, 0.0), dvec3(0.0, 0.2, 0.0), dvec3(1.0, 0.1, 0.0)], false),
+    );
+    assert_eq!(kinds, [(1, 1, 1, true)]);
+    let shape = bench.modeler.model().surfaces[&SurfaceId(1)].clone();
+    assert_eq!(ductile_mesh::regions(&shape.mesh).count(), 2);
+    bench.rest(600);
+    // Its ends lie on the rim: a cut along it divides the rim, too.
+    let kinds = act(&mut bench, Edit::Split { border: Border::Curve(CurveId(2)) });
+    assert_eq!(kinds, [(1, 1, 1, true), (2, 1, 1, true)]);
+    bench.rest(600);
+    assert_eq!(bench.document().curves.values().filter(|curve| curve.closed).count(), 0);
+}
+
+#[test]
+fn an_open_curve_inside_is_cut_to_a_slit() {
+    let mut bench = disc();
+    act(
+        &mut bench,
+        s_loop(1, vec![dvec3(-0.5, 0.0, 0.0), dvec3(0.0, 0.1, 0.0), dvec3(0.5, 0.0, 0.0)], false),
+    );
+    bench.rest(600);
+    let kinds = act(&mut bench, Edit::Split { border: Border::Curve(CurveId(2)) });
+    assert_eq!(kinds, [(1, 0, 2, true)]);
+    // Both banks end at the same points; the one in the middle was doubled.
+    let document = bench.document();
+    let banks: Vec<&Vec<PointId>> =
+        document.curves.values().filter(|c| !c.closed).map(|c| &c.through).collect();
+    assert_eq!(banks.len(), 2);
+    assert_eq!((banks[0][0], banks[0][2]), (banks[1][0], banks[1][2]));
+    assert_ne!(banks[0][1], banks[1][1]);
+    bench.rest(600);
+}
+
+#[test]
+fn crossing_curves_share_a_hub() {
+    let mut bench = disc();
+    act(&mut bench, s_loop(1, circle(0.5, 6, 0.0), true));
+    bench.rest(600);
+    let kinds = act(
+        &mut bench,
+        s_loop(1, vec![dvec3(-0.8, 0.03, 0.0), dvec3(0.0, 0.1, 0.0), dvec3(0.8, 0.03, 0.0)], false),
+    );
+    assert_eq!(kinds, [(1, 1, 1, true)]);
+    bench.rest(600);
+    let document = bench.document();
+    let (round, across) = (&document.curves[&CurveId(2)].through, &document.curves[&CurveId(3)].through);
+    let hubs = round.iter().filter(|point| across.contains(point)).count();
+    assert_eq!(hubs, 2, "{round:?} {across:?}");
+    // The upper half of the inner disc goes; the curves around it stay whole.
+    let kinds = act(&mut bench, Edit::Burnout { region: on(1, dvec3(0.0, 0.3, 0.0)) });
+    assert_eq!(kinds, [(1, 0, 2, true)]);
+    assert_eq!(bench.document().curves.len(), 3);
+    bench.rest(600);
+    // A crease round the lower half divides both curves where they part.
+    let kinds = act(&mut bench, Edit::Crease { border: Border::Region(on(1, dvec3(0.0, -0.3, 0.0))) });
+    assert_eq!(kinds.len(), 2);
+    bench.rest(600);
+}
+
+#[test]
+fn what_cannot_be_drawn_is_refused_with_a_reason() {
+    let mut bench = disc();
+    for (along, closed) in [
+        (vec![DVec3::ZERO], false),
+        (vec![DVec3::ZERO, DVec3::X * 0.3], true),
+        (vec![DVec3::ZERO, DVec3::splat(f64::NAN)], false),
+        (vec![DVec3::ZERO, DVec3::ZERO, DVec3::ZERO], true),
+        // A figure of eight.
+        (
+            vec![dvec3(-0.5, -0.3, 0.0), dvec3(0.5, 0.3, 0.0), dvec3(0.5, -0.3, 0.0), dvec3(-0.5, 0.3, 0.0)],
+            true,
+        ),
+    ] {
+        let why = refusal(&mut bench, s_loop(1, along, closed));
+        assert!(why.len() > 10, "{why}");
+    }
+    assert!(!refusal(&mut bench, s_loop(5, circle(0.5, 4, 0.0), true)).is_empty());
+}
+
+/// Figure 3.1 of the thesis: a torus from a square of points. All steps, a to g.
+#[test]
+fn figure_3_1_makes_a_torus_of_three_curves() {
+    let mut bench = Bench::new();
+    // a) A closed curve through four points; b) it is skinned.
+    let corners = circle(1.0, 4, 0.0).into_iter().map(ductile_spec::Through::Place).collect();
+    bench.edit(Edit::Curve { through: corners, closed: true });
+    act(&mut bench, Edit::Sheet { boundary: CurveId(1) });
+    bench.edit(Edit::Spacing { of: ductile_spec::SpacingOf::Document, spacing: Some(0.15) });
+    bench.rest(600);
+    // c), d) Two closed curves are drawn on the disc and raised; e) the middle is cut out and its rim raised.
+    for (curve, radius, height) in [(2, 0.45, 0.5), (3, 0.25, 1.0)] {
+        act(&mut bench, s_loop(1, circle(radius, 4, 0.5), true));
+        let document = bench.document();
+        for point in document.curves[&CurveId(curve)].through.clone() {
+            let at = document.points[&point];
+            bench.edit(Edit::Move { point, to: dvec3(at.x, at.y, height) });
+        }
+        bench.rest(600);
+    }
+    let kinds = act(&mut bench, Edit::Burnout { region: on(1, dvec3(0.0, 0.0, 1.0)) });
+    assert_eq!(kinds, [(1, 0, 2, true)]);
+    // f) The upper curve is expanded to match the lower; g) they are skinned, and both seams smoothed.
+    act(&mut bench, Edit::Expand { curve: CurveId(3), to: Extent::Like(CurveId(1)) });
+    bench.rest(600);
+    let kinds = act(&mut bench, Edit::Sweep { from: CurveId(1), to: CurveId(3), reversed: false });
+    assert_eq!(kinds, [(1, 0, 2, true), (2, 0, 2, true)]);
+    bench.rest(600);
+    let kinds = act(&mut bench, Edit::Smooth { curve: CurveId(1) });
+    assert_eq!(kinds, [(1, 0, 2, true)]);
+    let kinds = act(&mut bench, Edit::Smooth { curve: CurveId(3) });
+    assert_eq!(kinds, [(1, 0, 0, true)]);
+    let energy = bench.rest(600);
+    assert!(energy > 78.9, "no torus has less than 8 pi^2: {energy}");
+    let document = bench.document();
+    assert_eq!(document.curves.len(), 3);
+    // Every control curve is interpolated.
+    let model = bench.modeler.model();
+    for embedded in &model.surfaces[&SurfaceId(1)].embeddings {
+        for (v, at) in embedded.vertices.iter().zip(&model.curves[&embedded.curve].nodes) {
+            assert!(model.surfaces[&SurfaceId(1)].positions[v.index()].distance(*at) < 1e-9);
+        }
+    }
+}
+
+/// Two discs of radius 1 over each other.
+fn two_discs() -> Bench {
+    let mut bench = Bench::new();
+    for (curve, z) in [(1, 0.0), (2, 1.2)] {
+        let corners = circle(1.0, 4, z).into_iter().map(ductile_spec::Through::Place).collect();
+        bench.edit(Edit::Curve { through: corners, closed: true });
+        bench.edit(Edit::Sheet { boundary: CurveId(curve) });
+    }
+    bench.edit(Edit::Spacing { of: ductile_spec::SpacingOf::Document, spacing: Some(0.2) });
+    bench.rest(600);
+    bench
+}
+
+#[test]
+fn two_rims_are_glued_by_a_band_or_directly() {
+    for (skirt, reversed) in [(true, false), (false, false), (true, true), (false, true)] {
+        let mut bench = two_discs();
+        let (from, to) = (on(1, dvec3(1.0, 0.1, 0.0)), on(2, dvec3(-1.0, 0.0, 1.2)));
+        let kinds = act(&mut bench, Edit::Glue { from, to, skirt, reversed });
+        // Two discs make a sphere, whichever way they are turned.
+        assert_eq!(kinds, [(1, 2, 0, true)], "{skirt} {reversed}");
+        let curves = bench.document().curves.len();
+        assert_eq!(curves, if skirt { 2 } else { 1 });
+        for _ in 0..60 {
+            bench.step(None);
+        }
+    }
+}
+
+#[test]
+fn a_cylinder_glued_to_itself_is_a_torus_or_a_klein_bottle() {
+    for (skirt, reversed) in [(true, false), (true, true), (false, false), (false, true)] {
+        let mut bench = Bench::with(ductile_spec::Example::Cylinder);
+        bench.edit(Edit::Spacing { of: ductile_spec::SpacingOf::Document, spacing: Some(0.25) });
+        let (from, to) = (on(1, dvec3(1.0, 0.0, -0.7)), on(1, dvec3(1.0, 0.0, 0.7)));
+        let kinds = act(&mut bench, Edit::Glue { from, to, skirt, reversed });
+        assert_eq!(kinds, [(1, 0, 0, !reversed)], "{skirt} {reversed}");
+        for _ in 0..60 {
+            bench.step(None);
+        }
+        let why = refusal(&mut bench, Edit::Glue { from, to, skirt, reversed });
+        assert!(why.contains("closed"), "{why}");
+    }
+}
+
+#[test]
+fn discs_are_merged_by_a_tube_and_one_gets_a_handle() {
+    for keep in [true, false] {
+        let mut bench = two_discs();
+        let (from, to) = (on(1, dvec3(0.0, 0.0, 0.0)), on(2, dvec3(0.0, 0.0, 1.2)));
+        let kinds = act(&mut bench, Edit::Merge { from, to, radius: 0.3, keep });
+        assert_eq!(kinds, [(1, 0, 2, true)]);
+        assert_eq!(bench.document().curves.len(), if keep { 4 } else { 2 });
+        let energy = bench.rest(600);
+        assert!(energy.is_finite() && energy > 1.0, "{energy}");
+    }
+    let mut bench = Bench::with(ductile_spec::Example::Ball);
+    bench.rest(600);
+    let (from, to) = (on(1, dvec3(0.6, 0.6, 0.5)), on(1, dvec3(-0.6, -0.6, -0.5)));
+    let kinds = act(&mut bench, Edit::Merge { from, to, radius: 0.25, keep: true });
+    assert_eq!(kinds, [(1, 0, 0, true)]);
+    bench.rest(600);
+}
+
+#[test]
+fn what_cannot_be_merged_or_glued_is_refused_with_a_reason() {
+    let mut bench = two_discs();
+    let (from, to) = (on(1, dvec3(0.0, 0.0, 0.0)), on(2, dvec3(0.0, 0.0, 1.2)));
+    for radius in [0.0, -1.0, f64::NAN, 1e9] {
+        let why = refusal(&mut bench, Edit::Merge { from, to, radius, keep: true });
+        assert!(why.contains("radius"), "{why}");
+    }
+    for (from, to, radius) in [
+        (from, on(1, dvec3(0.1, 0.0, 0.0)), 0.3),
+        (on(1, dvec3(0.95, 0.0, 0.0)), to, 0.3),
+        (from, to, 3.0),
+        (from, on(9, DVec3::ZERO), 0.3),
+        (from, on(2, DVec3::NAN), 0.3),
+    ] {
+        assert!(refusal(&mut bench, Edit::Merge { from, to, radius, keep: true }).len() > 10);
+    }
+    let why = refusal(&mut bench, Edit::Glue { from, to: from, skirt: true, reversed: false });
+    assert!(why.contains("same rim"), "{why}");
 }

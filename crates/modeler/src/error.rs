@@ -1,6 +1,6 @@
 //! Why the modeler refuses: typed, with the offending thing in the message, in words for the designer.
 
-use ductile_mesh::{BuildError, GlueError};
+use ductile_mesh::{BridgeError, BuildError, GlueError, PathError};
 use ductile_solver::SolverError;
 use ductile_spec::{CurveId, Defect, LinkError, PointId, SurfaceId, TextError};
 use thiserror::Error;
@@ -201,6 +201,52 @@ pub enum ModelError {
     /// Two rims cannot be glued.
     #[error("the rims cannot be joined: {0}")]
     Unjoinable(GlueError),
+    /// A curve cannot be laid on a surface.
+    #[error("{surface}: {why}")]
+    NoWay {
+        /// The surface.
+        surface: SurfaceId,
+        /// Why not.
+        why: PathError,
+    },
+    /// A curve on a surface would share an edge with another one, or with the rim.
+    #[error("the curve would run along another curve of {0}, or along its rim; keep off it, or cross it")]
+    AlongCurve(SurfaceId),
+    /// A curve would pass through a control point twice.
+    #[error("the curve would pass through {0} twice; draw two curves instead")]
+    TwiceThrough(PointId),
+    /// A curve would cross others too often.
+    #[error(
+        "the curve would cross others more than {0} times; keep off them, or cross them at a wider angle"
+    )]
+    TooManyHubs(usize),
+    /// The surface is closed.
+    #[error("{0} is closed: it has no rim")]
+    NoRim(SurfaceId),
+    /// A rim cannot be joined with itself.
+    #[error("both places lie on the same rim of {0}; a rim cannot be joined with itself")]
+    SameRim(SurfaceId),
+    /// Two rims cannot be bridged.
+    #[error("no band fits between the rims: {0}")]
+    NoBand(BridgeError),
+    /// A curve inside a surface ends at the rim that would vanish.
+    #[error(
+        "{curve} ends at the rim of {surface} that would be laid on the other; join them with a band instead"
+    )]
+    EndsAtRim {
+        /// The curve.
+        curve: CurveId,
+        /// The surface.
+        surface: SurfaceId,
+    },
+    /// Two holes of this size would meet.
+    #[error("the two holes would meet: choose places farther apart, or a smaller radius")]
+    HolesMeet,
+    /// A hole does not fit.
+    #[error(
+        "{0} has no room for the hole here: a rim or a curve is too near, or the surface bends too sharply. Choose another place, or a smaller radius"
+    )]
+    NoRoom(SurfaceId),
     /// A size is not a usable number.
     #[error("a radius must be a positive number up to 1e6")]
     BadRadius,

@@ -7,7 +7,9 @@ mod curve;
 mod delete;
 mod density;
 mod expand;
+mod glue;
 mod insert;
+mod merge;
 mod normal;
 mod objective;
 mod pin;
@@ -16,6 +18,7 @@ mod region;
 mod release;
 mod reverse;
 mod ribbon;
+mod s_loop;
 mod sheet;
 mod slide;
 mod smooth;
@@ -61,9 +64,10 @@ fn act(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result<(), ModelErr
         Edit::Smooth { curve } => smooth::smooth(model, *curve),
         Edit::Expand { curve, to } => expand::expand(model, *curve, *to),
         Edit::Reverse { surface } => reverse::reverse(model, *surface),
-        Edit::SLoop { .. } | Edit::Glue { .. } | Edit::Merge { .. } | Edit::Trim { .. } => {
-            Err(ModelError::NothingHeld)
-        }
+        Edit::SLoop { surface, along, closed } => s_loop::s_loop(model, *surface, along, *closed),
+        Edit::Glue { from, to, skirt, reversed } => glue::glue(model, *from, *to, *skirt, *reversed),
+        Edit::Merge { from, to, radius, keep } => merge::merge(model, *from, *to, *radius, *keep),
+        Edit::Trim { .. } => Err(ModelError::NothingHeld),
         Edit::Pin { surface, at } => pin(model, relaxer, *surface, *at).map(drop),
         Edit::Insert { curve, at } => insert(model, *curve, *at).map(drop),
         Edit::Release { point } => release::release(model, *point),

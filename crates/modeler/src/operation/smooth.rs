@@ -18,7 +18,7 @@ pub(super) fn smooth(model: &mut Model, curve: CurveId) -> Result<(), ModelError
         [] | [_] => return Err(ModelError::NoCrease(curve)),
         _ => return Err(ModelError::ManyRims { curve, count: rims.len() }),
     };
-    let told = unite(model, one, other)?;
+    let told = unite(model, one, other)?.told;
     let seam = |shape: &SurfaceShape| {
         let mut lines = shape.embeddings.iter().filter(|e| e.curve == curve).map(|e| e.vertices.clone());
         Some(Seam { kept: lines.next()?, gone: lines.next()?, is_closed: closed })

@@ -20,12 +20,19 @@ pub(crate) fn said(model: &Model, id: SurfaceId) -> Told {
     told(shape, &surface.regions)
 }
 
-/// Makes one surface of two that have nothing to do with each other yet: the second is added to the first. Gives what was
-/// said of regions; [`say`] says it again when they have been joined.
-pub(crate) fn unite(model: &mut Model, id: SurfaceId, other: SurfaceId) -> Result<Told, ModelError> {
+/// What came of adding one surface to another.
+pub(crate) struct United {
+    /// What was said of the regions of both; [`say`] says it again when they have been joined.
+    pub(crate) told: Told,
+    /// For every vertex slot of the second its name in the first; empty if they were one.
+    pub(crate) names: Vec<Option<VertexId>>,
+}
+
+/// Makes one surface of two that have nothing to do with each other yet: the second is added to the first.
+pub(crate) fn unite(model: &mut Model, id: SurfaceId, other: SurfaceId) -> Result<United, ModelError> {
     let mut all = said(model, id);
     if id == other {
-        return Ok(all);
+        return Ok(United { told: all, names: Vec::new() });
     }
     let theirs = said(model, other);
     let added = Arc::clone(model.surfaces.get(&other).ok_or(ModelError::NoSurface(other))?);
@@ -70,7 +77,7 @@ pub(crate) fn unite(model: &mut Model, id: SurfaceId, other: SurfaceId) -> Resul
         own.normals.extend(surface.normals);
         own.ribbons.extend(surface.ribbons);
     }
-    Ok(all)
+    Ok(United { told: all, names: names.vertices })
 }
 
 /// Says again what was said of regions.

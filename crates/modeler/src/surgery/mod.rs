@@ -2,9 +2,11 @@
 //!
 //! The mesh is cut or glued first, as `ductile_mesh` does it, and everything else is found again on the new mesh: which
 //! stretches of which curves are still there ([`runs`]), which pieces have come apart and what the document said of them
-//! ([`pieces`]), which rims are laid on one another ([`joining`]).
+//! ([`pieces`]), which rims are laid on one another ([`joining`], [`rims`]), which way a curve takes over a surface ([`tracing`]).
 
 pub(crate) mod joining;
 pub(crate) mod opening;
 pub(crate) mod pieces;
+pub(crate) mod rims;
 pub(crate) mod runs;
+pub(crate) mod tracing;

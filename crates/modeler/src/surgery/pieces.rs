@@ -363,10 +363,14 @@ pub(crate) fn tag(mesh: &mut Mesh, vertices: &[VertexId], closed: bool, curve: C
     }
 }
 
-/// What was said of regions, with a face of each.
-pub(crate) fn told(shape: &SurfaceShape, regions: &[Region]) -> Vec<(FaceId, Region)> {
-    let face = |region: &Region| region::face_beside(shape, region.curve, region.from, region.side);
-    regions.iter().filter_map(|region| Some((face(region)?, *region))).collect()
+/// What was said of regions, for every face of theirs: a curve may divide them yet.
+pub(crate) fn told(shape: &SurfaceShape, said: &[Region]) -> Vec<(FaceId, Region)> {
+    if said.is_empty() {
+        return Vec::new();
+    }
+    let labels = regions(&shape.mesh);
+    let of_pieces = region::own(shape, &labels, said, |region| Some(*region));
+    shape.mesh.faces().filter_map(|f| Some((f, of_pieces[labels.of(f)]?))).collect()
 }
 
 /// Says it again of a shape, under the names that the regions have there. What is in one piece has it for itself.

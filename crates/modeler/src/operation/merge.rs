@@ -1,0 +1,92 @@
+//! `merge`: a tube between two places of two surfaces, or of one (thesis section 7.4.3). Both are pierced: a loop is drawn
+//! round each place, its inside is burnt out, and a band closes the space between the loops.
+
+use crate::error::ModelError;
+use crate::model::Model;
+use crate::operation::s_loop::draw;
+use crate::operation::{burnout, delete};
+use crate::surgery::opening::{edges_around, region_at};
+use crate::surgery::rims::{Rim, band};
+use crate::surgery::tracing::Stop;
+use ductile_mesh::{SourceTag, measure, nearest_place};
+use ductile_spec::{CurveId, MAX_COORDINATE, On, SurfaceId};
+use glam::DVec3;
+
+/// Control points of the loop round a hole.
+const CORNERS: u32 = 4;
+
+/// Makes a tube between two places.
+pub(super) fn merge(model: &mut Model, from: On, to: On, radius: f64, keep: bool) -> Result<(), ModelError> {
+    if !(radius > 0.0 && radius <= MAX_COORDINATE) {
+        return Err(ModelError::BadRadius);
+    }
+    let is_near = from.surface == to.surface && from.at.distance(to.at) < 2.0 * radius;
+    if is_near {
+        return Err(ModelError::HolesMeet);
+    }
+    // The tube leads from one place to the other: their loops are drawn to face each other.
+    let one = pierce(model, from, to.at, radius)?;
+    let other = pierce(model, to, from.at, radius)?;
+    let rims =
+        [(from.surface, rim_of(model, from.surface, one)?), (to.surface, rim_of(model, to.surface, other)?)];
+    let [first, second] = rims;
+    band(model, first, second, false)?;
+    if !keep {
+        delete::curve(model, one)?;
+        delete::curve(model, other)?;
+    }
+    Ok(())
+}
+
+/// Makes a hole round a place; gives the curve on its rim.
+fn pierce(model: &mut Model, on: On, towards: DVec3, radius: f64) -> Result<CurveId, ModelError> {
+    let id = on.surface;
+    let shape = model.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?;
+    if !on.at.is_finite() {
+        return Err(ModelError::BadPosition);
+    }
+    let place = nearest_place(&shape.mesh, &shape.positions, on.at).ok_or(ModelError::NoSurface(id))?;
+    let centre = place.position(&shape.mesh, &shape.positions).ok_or(ModelError::BadPosition)?;
+    let normal = measure::face_normal(&shape.mesh, &shape.positions, place.face(&shape.mesh));
+    let normal = normal.try_normalize().ok_or(ModelError::NoRoom(id))?;
+    // Both loops begin where the way between the places is the same distance: no twist.
+    let across = (towards - centre).cross(normal).try_normalize();
+    let u = across.unwrap_or_else(|| normal.any_orthonormal_vector());
+    let v = normal.cross(u);
+    let corner = |k: u32| {
+        let (sin, cos) = libm::sincos((f64::from(k) + 0.5) * core::f64::consts::TAU / f64::from(CORNERS));
+        centre + (u * cos + v * sin) * radius
+    };
+    let corners: Vec<DVec3> = (0..CORNERS).map(corner).collect();
+    let nearest = |at: DVec3| {
+        let place = nearest_place(&shape.mesh, &shape.positions, at)?;
+        place.position(&shape.mesh, &shape.positions)
+    };
+    // Beyond a rim, or where the surface turns away too fast, there is nothing to draw the loop on.
+    let is_there = |at: &DVec3| nearest(*at).is_some_and(|on| on.distance(*at) < 0.5 * radius);
+    if !corners.iter().all(is_there) {
+        return Err(ModelError::NoRoom(id));
+    }
+    let stops = corners.into_iter().map(|at| Stop { at, point: None }).collect();
+    let before = model.document.next_point();
+    let curve = draw(model, id, stops, true)?;
+    let through = &model.document.curves.get(&curve).ok_or(ModelError::NoCurve(curve))?.through;
+    let region = On { surface: id, at: centre };
+    let is_in = region_at(model, region)?;
+    let shape = model.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?;
+    let around = edges_around(&shape.mesh, &is_in);
+    let is_own = around.iter().all(|e| shape.mesh.edge_source(*e) == Some(SourceTag(curve.0)));
+    let is_free = through.len() == CORNERS as usize && through.iter().all(|point| *point >= before);
+    if !(is_own && is_free && around.len() == model.curves.get(&curve).map_or(0, |c| c.nodes.len())) {
+        return Err(ModelError::NoRoom(id));
+    }
+    burnout::burnout(model, region)?;
+    Ok(curve)
+}
+
+/// The rim that follows a curve.
+fn rim_of(model: &Model, id: SurfaceId, curve: CurveId) -> Result<Rim, ModelError> {
+    let shape = model.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?;
+    let embedded = shape.embeddings.iter().find(|e| e.curve == curve);
+    embedded.map(|e| e.vertices.clone()).ok_or(ModelError::NotInSurface { surface: id, curve })
+}

@@ -1,0 +1,220 @@
+//! Rims: boundary loops of surfaces, found by a place, joined by a band or laid on one another (thesis section 7.3.5).
+
+use crate::error::ModelError;
+use crate::model::Model;
+use crate::operation::{forget_unused_points, refresh_skeleton};
+use crate::shape::{SurfaceShape, edit};
+use crate::surgery::joining::{Told, United, say, sew, split, unite};
+use ductile_mesh::{Bridge, BridgeError, Mesh, Seam, Sense, VertexId, boundary_loops, propagate_orientation};
+use ductile_spec::{CurveId, On, SurfaceId};
+use glam::DVec3;
+use std::sync::Arc;
+
+/// Edges that may be split to make room.
+const PATIENCE: usize = 10_000;
+
+/// A boundary loop: its vertices in order. Where windings agree the surface lies to its left.
+pub(crate) type Rim = Vec<VertexId>;
+
+/// The rim nearest to a place.
+pub(crate) fn rim_at(model: &Model, on: On) -> Result<Rim, ModelError> {
+    if !on.at.is_finite() {
+        return Err(ModelError::BadPosition);
+    }
+    let shape = model.surfaces.get(&on.surface).ok_or(ModelError::NoSurface(on.surface))?;
+    let distance = |rim: &Rim| {
+        let next = rim.iter().cycle().skip(1);
+        let edges = rim.iter().zip(next).map(|(a, b)| [*a, *b].map(|v| shape.positions[v.index()]));
+        edges.map(|[a, b]| distance_to_edge(on.at, a, b)).fold(f64::INFINITY, f64::min)
+    };
+    let rims = boundary_loops(&shape.mesh);
+    let nearest = rims.into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    nearest.ok_or(ModelError::NoRim(on.surface))
+}
+
+fn distance_to_edge(at: DVec3, a: DVec3, b: DVec3) -> f64 {
+    let t = (at - a).dot(b - a) / (b - a).length_squared();
+    a.lerp(b, if t.is_finite() { t.clamp(0.0, 1.0) } else { 0.0 }).distance(at)
+}
+
+/// Brings two rims into one surface. Gives them as they are called there.
+fn together(
+    model: &mut Model,
+    (one, first): (SurfaceId, Rim),
+    (other, second): (SurfaceId, Rim),
+) -> Result<(Told, Rim, Rim), ModelError> {
+    if one == other && first.iter().any(|v| second.contains(v)) {
+        return Err(ModelError::SameRim(one));
+    }
+    let United { told, names } = unite(model, one, other)?;
+    let name = |v: VertexId| names.get(v.index()).copied().flatten().unwrap_or(v);
+    let second = second.into_iter().map(name).collect();
+    Ok((told, first, second))
+}
+
+/// Closes the space between two rims with a band. The rims become inner lines; the second surface becomes part of the first.
+pub(crate) fn band(
+    model: &mut Model,
+    one: (SurfaceId, Rim),
+    other: (SurfaceId, Rim),
+    reversed: bool,
+) -> Result<SurfaceId, ModelError> {
+    let id = one.0;
+    let is_handle = one.0 == other.0;
+    let (told, mut first, mut second) = together(model, one, other)?;
+    for _ in 0..PATIENCE {
+        let shape = model.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?;
+        let sense = match (is_handle, reversed) {
+            (true, false) => Sense::Oriented,
+            (true, true) => Sense::Reversed,
+            (false, false) => Sense::Shortest,
+            (false, true) => longest(shape, &first, &mut second),
+        };
+        let bridge = Bridge { one: first.clone(), other: second.clone(), is_closed: true, sense };
+        match shape.mesh.can_bridge(&bridge, &shape.positions) {
+            Ok(()) => {
+                let revision = model.next_revision();
+                let shape = edit(model.surfaces.get_mut(&id).ok_or(ModelError::NoSurface(id))?);
+                shape.mesh.bridge(&bridge, &shape.positions).map_err(ModelError::NoBand)?;
+                propagate_orientation(&mut shape.mesh);
+                shape.revision = revision;
+                refresh_skeleton(model, id);
+                say(model, id, &told);
+                model.document.validate()?;
+                return Ok(id);
+            }
+            Err(BridgeError::SecondEdge(edge)) => {
+                let ends = shape.mesh.edge_vertices(edge);
+                let new = split(model, id, edge)?;
+                for rim in [&mut first, &mut second] {
+                    insert_between(rim, ends, new);
+                }
+            }
+            Err(why) => return Err(ModelError::NoBand(why)),
+        }
+    }
+    Err(ModelError::NoBand(BridgeError::TooShort(first.len().min(second.len()))))
+}
+
+/// Gives the second rim the sense that makes the longer band.
+fn longest(shape: &SurfaceShape, first: &Rim, second: &mut Rim) -> Sense {
+    let cost = |rim: &Rim| best_turn(&shape.positions, first, rim).1;
+    let turned: Rim = second.iter().rev().copied().collect();
+    if cost(second) < cost(&turned) {
+        *second = turned;
+    }
+    Sense::AsGiven
+}
+
+/// A vertex that was made in the middle of an edge of a rim belongs to the rim.
+fn insert_between(rim: &mut Rim, ends: [VertexId; 2], new: VertexId) {
+    let count = rim.len();
+    let is_there = |k: &usize| {
+        let pair = [rim[*k], rim[(k + 1) % count]];
+        pair == ends || pair == [ends[1], ends[0]]
+    };
+    if let Some(k) = (0..count).find(is_there) {
+        rim.insert(k + 1, new);
+    }
+}
+
+/// Where a loop must begin to lie nearest to another one, place by place along both, and the sum of squared distances. What
+/// both are away from each other as wholes does not count.
+fn best_turn(positions: &[DVec3], fixed: &Rim, turned: &Rim) -> (usize, f64) {
+    let at = |v: &VertexId| positions[v.index()];
+    let centre = |rim: &Rim| rim.iter().map(at).sum::<DVec3>() / rim.len().max(1) as f64;
+    let shift = centre(fixed) - centre(turned);
+    let (n, m) = (fixed.len(), turned.len());
+    let cost = |start: usize| -> f64 {
+        let pairs = (0..n).map(|k| (&fixed[k], &turned[(start + k * m / n) % m]));
+        pairs.map(|(v, w)| (at(v) - at(w) - shift).length_squared()).sum()
+    };
+    let all = (0..m).map(|start| (start, cost(start)));
+    all.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, f64::INFINITY))
+}
+
+/// Lays the second rim on the first. The curves of the second are no longer followed there.
+pub(crate) fn lay(
+    model: &mut Model,
+    one: (SurfaceId, Rim),
+    other: (SurfaceId, Rim),
+    reversed: bool,
+) -> Result<SurfaceId, ModelError> {
+    let id = one.0;
+    let is_handle = one.0 == other.0;
+    let before = Arc::clone(model.surfaces.get(&other.0).ok_or(ModelError::NoSurface(other.0))?);
+    let (told, mut first, mut second) = together(model, one, other)?;
+    free(model, id, &second)?;
+    while first.len() != second.len() {
+        let rim = if first.len() < second.len() { &mut first } else { &mut second };
+        lengthen(model, id, rim)?;
+    }
+    let shape = model.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?;
+    // Both run with the surface to their left; one the other way lies along the other.
+    let turned: Rim = second.iter().rev().copied().collect();
+    let (plain, opposite) =
+        (best_turn(&shape.positions, &first, &second), best_turn(&shape.positions, &first, &turned));
+    let is_turned = if is_handle { true } else { opposite.1 <= plain.1 };
+    let (mut gone, start) = if is_turned == reversed { (second, plain.0) } else { (turned, opposite.0) };
+    gone.rotate_left(start);
+    sew_loops(model, id, first, gone)?;
+    refresh_skeleton(model, id);
+    say(model, id, &told);
+    forget_free_curves(model, &before);
+    forget_unused_points(model, &before);
+    model.document.validate()?;
+    Ok(id)
+}
+
+/// Sews two loops vertex by vertex. Room is made by splits away from both, or of both alike.
+fn sew_loops(model: &mut Model, id: SurfaceId, kept: Rim, gone: Rim) -> Result<(), ModelError> {
+    sew(model, id, |_: &SurfaceShape| Some(Seam { kept: kept.clone(), gone: gone.clone(), is_closed: true }))
+}
+
+/// Lets a rim of a surface go from its curves; refuses if a curve of the inside ends there.
+fn free(model: &mut Model, id: SurfaceId, rim: &Rim) -> Result<(), ModelError> {
+    let shape = edit(model.surfaces.get_mut(&id).ok_or(ModelError::NoSurface(id))?);
+    let is_on = |v: &VertexId| rim.contains(v);
+    let ends_there =
+        |e: &&crate::shape::EmbeddedCurve| e.vertices.iter().any(is_on) && !e.vertices.iter().all(is_on);
+    if let Some(embedded) = shape.embeddings.iter().find(ends_there) {
+        return Err(ModelError::EndsAtRim { curve: embedded.curve, surface: id });
+    }
+    shape.embeddings.retain(|e| !e.vertices.iter().any(is_on));
+    shape.pins.retain(|pin| !is_on(&pin.vertex));
+    for v in rim {
+        shape.mesh.set_vertex_source(*v, None);
+    }
+    for e in edges_of_rim(&shape.mesh, rim) {
+        shape.mesh.set_edge_source(e, None);
+    }
+    Ok(())
+}
+
+fn edges_of_rim(mesh: &Mesh, rim: &Rim) -> Vec<ductile_mesh::EdgeId> {
+    crate::surgery::opening::edges_of(mesh, rim, true).unwrap_or_default()
+}
+
+/// Splits the longest edge of a rim.
+fn lengthen(model: &mut Model, id: SurfaceId, rim: &mut Rim) -> Result<(), ModelError> {
+    let shape = model.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?;
+    let at = |v: VertexId| shape.positions[v.index()];
+    let length = |k: usize| at(rim[k]).distance(at(rim[(k + 1) % rim.len()]));
+    let longest = (0..rim.len()).fold(0, |best, k| if length(k) > length(best) { k } else { best });
+    let ends = [rim[longest], rim[(longest + 1) % rim.len()]];
+    let edge = shape.mesh.edge_between(ends[0], ends[1]).ok_or(ModelError::NoRim(id))?;
+    let new = split(model, id, edge)?;
+    insert_between(rim, ends, new);
+    Ok(())
+}
+
+/// Curves that only a rim of a surface followed, which is gone.
+fn forget_free_curves(model: &mut Model, before: &SurfaceShape) {
+    let candidates: Vec<CurveId> = before.embeddings.iter().map(|e| e.curve).collect();
+    for id in candidates {
+        if model.document.surfaces_on(id).next().is_none() {
+            model.document_mut().curves.remove(&id);
+            model.curves.remove(&id);
+        }
+    }
+}
