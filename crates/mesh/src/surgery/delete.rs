@@ -217,3 +217,6 @@ fn cheapest(
     }
     Some(())
 }
+
+#[cfg(test)]
+mod tests;
