@@ -16,6 +16,7 @@ mod pair;
 mod path;
 mod preview;
 mod selection;
+mod sketch;
 mod surgery;
 #[cfg(test)]
 mod surgery_test;
@@ -31,6 +32,7 @@ pub use pair::Pick;
 pub use path::Corner;
 pub use preview::{mean_radius, ties, tube};
 pub use selection::Selection;
+pub use sketch::Stroke;
 
 /// What a tool wants done.
 #[derive(Clone, Debug, PartialEq)]

@@ -23,7 +23,9 @@ pub struct Corner {
 impl Toolbox {
     pub(super) fn path_hint(&self) -> &'static str {
         match (self.kind, self.corners.len()) {
-            (ToolKind::Draw, 0) => "Click on a surface where the curve on it begins.",
+            (ToolKind::Draw, 0) => {
+                "Click on a surface where the curve on it begins, or sketch it in one stroke."
+            }
             (ToolKind::Draw, 1) => {
                 "Click the next place on the surface. Backspace takes the last one away, Esc gives up."
             }

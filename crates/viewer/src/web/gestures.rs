@@ -4,7 +4,8 @@ use super::dom;
 use super::page::Page;
 use crate::input::{Button, Gesture, Modifiers, Pointer, Recogniser};
 use crate::tool::{
-    Act, Aim, Arm, Drag, Place, Selection, Surroundings, ToolKind, entry, grid_step, handles_at, work_plane,
+    Act, Aim, Arm, Drag, Place, Selection, Stroke, Surroundings, ToolKind, entry, grid_step, handles_at,
+    work_plane,
 };
 use crate::{Hit, Pose, RimHit, View, Wanted, pick, pick_among};
 use ductile_spec::{Edit, GrabTarget, PointRole, Request};
@@ -23,6 +24,8 @@ const CORNER_REACH: f32 = 12.0;
 pub(crate) struct Hand {
     recogniser: Recogniser,
     pub(crate) drag: Option<Drag>,
+    /// A curve that is being sketched.
+    pub(crate) stroke: Option<Stroke>,
     pub(crate) cursor: Option<Vec2>,
     pub(crate) modifiers: Modifiers,
     pub(crate) hover: Option<Hit>,
@@ -38,6 +41,7 @@ impl Hand {
     /// What is pressed means nothing any more.
     pub(crate) fn forget(&mut self) {
         self.drag = None;
+        self.stroke = None;
         self.recogniser.abandon();
     }
 
@@ -53,7 +57,8 @@ impl Page {
         self.hand.modifiers = pointer.modifiers;
         let on_triad = self.shows_triad() && self.camera.triad_hit(pointer.at).is_some();
         let is_thing = || self.arm_at(pointer.at).is_some() || self.thing_at(pointer.at).is_some();
-        let holds = self.tools.holds() && !on_triad && is_thing();
+        let draws = || self.tools.sketches() && self.thing_at(pointer.at).is_some();
+        let holds = !on_triad && (draws() || self.tools.holds() && is_thing());
         let gestures = self.hand.recogniser.down(pointer, button, holds);
         self.run(gestures);
     }
@@ -95,7 +100,7 @@ impl Page {
 
     /// Gives up a drag; says whether there was one.
     pub(crate) fn abandon_drag(&mut self) -> bool {
-        let had = self.hand.drag.is_some();
+        let had = self.hand.drag.is_some() || self.hand.stroke.is_some();
         let gestures = self.hand.recogniser.abandon();
         self.run(gestures);
         had
@@ -118,8 +123,11 @@ impl Page {
             Gesture::Drag { at, modifiers } => {
                 self.hand.cursor = Some(at);
                 self.hand.modifiers = modifiers;
+                self.sketch(at);
                 self.follow_cursor();
             }
+            Gesture::Drop if self.hand.stroke.is_some() => self.end_sketch(),
+            Gesture::Abandon if self.hand.stroke.take().is_some() => self.refresh(),
             Gesture::Drop => {
                 self.schedule.drop_held();
                 self.hand.drag = None;
@@ -208,12 +216,9 @@ impl Page {
 
     /// Gives a click to the tool in hand, and does what it wants done.
     pub(crate) fn click_with(&mut self, aim: Aim<'_>) {
-        let around = Surroundings {
-            structure: &self.scene.structure,
-            document: &self.document,
-            forward: self.camera.forward(),
-            radius: self.suited_radius(),
-        };
+        let radius = self.suited_radius();
+        let (structure, document) = (&self.scene.structure, &self.document);
+        let around = Surroundings { structure, document, forward: self.camera.forward(), radius };
         let acts = self.tools.click(aim, around);
         self.perform(acts);
     }
@@ -261,6 +266,11 @@ impl Page {
     }
 
     fn grab(&mut self, at: Vec2) {
+        if self.tools.sketches() {
+            self.hand.stroke = Some(Stroke::default());
+            self.sketch(at);
+            return;
+        }
         if let Some(arm) = self.arm_at(at) {
             let drag = arm.drag(at);
             self.schedule.grab(drag.target());

@@ -296,6 +296,10 @@ impl Page {
 
     /// The curve under way, and on to the pointer.
     fn mark_curve(&self, mark: &mut Highlight) {
+        if let Some(stroke) = &self.hand.stroke {
+            mark.ghost_line = stroke.places().collect();
+            return;
+        }
         let mut corners: Vec<Vec3> = self.tools.corners().iter().map(|corner| corner.at).collect();
         mark.ghost.clone_from(&corners);
         let over = match (self.hand.cursor, self.hand.hover) {

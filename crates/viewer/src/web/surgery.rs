@@ -2,7 +2,7 @@
 
 use super::page::Page;
 use crate::input::Modifiers;
-use crate::tool::{Aim, Place, Selection, ToolKind, ties, tube};
+use crate::tool::{Aim, Place, Selection, Surroundings, ToolKind, ties, tube};
 use crate::{Highlight, Hit, RimHit, Tinted, Wanted, closest_places, pick_among};
 use ductile_spec::{CurveId, SurfaceId};
 use glam::{Vec2, Vec3};
@@ -31,6 +31,26 @@ impl Page {
             Some(Hit::Surface { id, at, .. }) => self.rims.nearest(&self.scene, id, at),
             _ => None,
         })
+    }
+
+    /// A curve that is being sketched goes on to the pointer.
+    pub(crate) fn sketch(&mut self, at: Vec2) {
+        let Some(mut stroke) = self.hand.stroke.take() else { return };
+        if stroke.wants(at) {
+            let below = Wanted { points: false, curves: false, ..Wanted::ALL };
+            stroke.add(at, pick_among(&self.scene, &self.camera, at, 0.0, below));
+        }
+        self.hand.stroke = Some(stroke);
+    }
+
+    /// The sketched curve is done.
+    pub(crate) fn end_sketch(&mut self) {
+        let Some(stroke) = self.hand.stroke.take() else { return };
+        let radius = self.suited_radius();
+        let (structure, document) = (&self.scene.structure, &self.document);
+        let around = Surroundings { structure, document, forward: self.camera.forward(), radius };
+        let acts = self.tools.sketched(&stroke, around);
+        self.perform(acts);
     }
 
     /// The tool in hand takes the selected thing, or the middle of the picture: for those without a pointer.
