@@ -1,0 +1,151 @@
+// Figure 3.1 of Welch's thesis by hand: from an empty document to a torus, with nothing but a pointer and keys.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { assertOnCanvas, atRest, choose, drawn, newPoints, point, wide } from "./support/model.mjs";
+import { inspect, untilInspect, withPage } from "./support/page.mjs";
+import { drag } from "./support/pointer.mjs";
+
+const middle = [wide.width / 2, wide.height / 2];
+
+/** Four places round the middle of the window. */
+const ring = (radius) => [[radius, 0], [0, -radius], [-radius, 0], [0, radius]].map(([x, y]) => [middle[0] + x, middle[1] + y]);
+
+/** Clicks places and the first again: a closed curve. */
+async function loop(page, key, places, act) {
+  await page.keyboard.press(key);
+  await assertOnCanvas(page, ...places);
+  for (const [index, place] of places.entries()) {
+    await page.mouse.click(...place);
+    await untilInspect(page, ({ corners }) => corners === index + 1);
+  }
+  await page.mouse.click(...places[0]);
+  return atRest(page, (state) => state.act === act && state.corners === 0);
+}
+
+/** Where a place of the model is in the window. */
+function screenOf({ camera, points }, at) {
+  const dot = (a, b) => a.reduce((sum, value, axis) => sum + value * b[axis], 0);
+  const seen = (place) => {
+    const away = place.map((value, axis) => value - camera.eye[axis]);
+    const depth = dot(away, camera.forward);
+    return [dot(away, camera.right) / depth, dot(away, camera.up) / depth];
+  };
+  // The length of the lens, from the point that is farthest off the axis.
+  const far = points.map((entry) => [entry, seen(entry.at)]).reduce((a, b) => (Math.abs(b[1][0]) > Math.abs(a[1][0]) ? b : a));
+  const lens = (far[0].screen[0] - middle[0]) / far[1][0];
+  const [x, y] = seen(at);
+  return [middle[0] + lens * x, middle[1] - lens * y];
+}
+
+/** Drags a control point straight up by a length. */
+async function raise(page, id, height) {
+  const before = await inspect(page);
+  const { at, screen } = point(before, id);
+  const to = screenOf(before, [at[0], at[1], at[2] + height]);
+  await assertOnCanvas(page, screen, to);
+  await page.mouse.move(...screen);
+  await page.mouse.down();
+  await page.mouse.move(screen[0], screen[1] - 8, { steps: 2 });
+  await page.keyboard.press("z");
+  await page.mouse.move(...to, { steps: 12 });
+  await page.mouse.up();
+  const after = await atRest(page, (state) => state.held === null && state.document !== before.document);
+  const [x, y, z] = point(after, id).at;
+  const off = Math.hypot(x - at[0], y - at[1], z - at[2] - height);
+  assert.ok(off < 0.02 * Math.abs(height), `from ${at} by ${height} it went to ${[x, y, z]}`);
+  return after;
+}
+
+/** A place on a curve in plain sight: the first of its samples, from below, at which the tool in hand would take it. */
+async function onCurve(page, id) {
+  const state = await inspect(page);
+  const { screen } = state.curves.find((curve) => curve.id === id);
+  const clear = ([x, y]) => state.points.every(({ screen: [px, py] }) => Math.hypot(px - x, py - y) > 14);
+  for (const place of screen.filter(clear).sort((a, b) => b[1] - a[1])) {
+    const over = await page.evaluate(([x, y]) => document.elementFromPoint(x, y)?.id, place);
+    if (over !== "view") continue;
+    await page.mouse.move(...place);
+    await drawn(page);
+    if ((await inspect(page)).hover === `curve ${id}`) return place;
+  }
+  return assert.fail(`curve ${id} is nowhere in sight`);
+}
+
+/** Clicks on a curve with the tool in hand and waits for the act. */
+async function take(page, id, act) {
+  await page.mouse.click(...(await onCurve(page, id)));
+  return atRest(page, (state) => state.act === act);
+}
+
+test("figure 3.1: a disc becomes a torus, is taken back to nothing, and comes again", async () => {
+  await withPage({ viewport: wide }, async (page) => {
+    await atRest(page);
+    await choose(page, "file", "new");
+    const empty = await atRest(page, ({ points }) => points.length === 0);
+    await page.keyboard.press("7");
+    await atRest(page, ({ camera }) => camera.forward[2] < -0.99);
+
+    // (a, b) A curve and a sheet over it; (c) two curves drawn on the sheet.
+    await loop(page, "c", ring(190), "Curve");
+    await page.keyboard.press("s");
+    await page.mouse.click(...(await onCurve(page, 1)));
+    const sheet = await atRest(page, ({ surfaces }) => surfaces.length === 1);
+    const wall = newPoints(await loop(page, "d", ring(104), "Draw"), sheet);
+    const walled = await inspect(page);
+    const hole = newPoints(await loop(page, "d", ring(50), "Draw"), walled);
+    assert.deepEqual([wall.length, hole.length], [4, 4]);
+
+    // (d) What is inside the inner one is burnt out.
+    await page.keyboard.press("b");
+    await page.mouse.click(...middle);
+    const burnt = await atRest(page, ({ act }) => act === "Burn out");
+    assert.deepEqual([burnt.surfaces[0].summary.euler, burnt.surfaces[0].summary.boundaries], [0, 2]);
+
+    // (e) Both are raised, the rim of the hole higher.
+    await page.keyboard.press("v");
+    await drag(page, [120, 460], [120, 390], { button: "right" });
+    const radius = point(burnt, 1).at[0];
+    for (const { id } of wall) await raise(page, id, 0.2 * radius);
+    // From the front to the back: a raised rim must not hide the points that are still to be taken.
+    for (const { id } of [3, 0, 2, 1].map((index) => hole[index])) await raise(page, id, 0.45 * radius);
+
+    // (f) The rim grows to the size of the outer curve; (g) the two are swept, and smoothed.
+    await page.locator('#scene-list [data-subject="curve 3"]').click();
+    await page.locator("#match").click();
+    await untilInspect(page, ({ tool }) => tool === "match");
+    await take(page, 1, "Expand");
+    await page.keyboard.press("w");
+    await page.mouse.click(...(await onCurve(page, 1)));
+    await untilInspect(page, ({ underWay }) => underWay);
+    const swept = await take(page, 3, "Sweep");
+    assert.equal(swept.surfaces.length, 2);
+    await page.keyboard.press("k");
+    await take(page, 1, "Smooth");
+    const torus = await take(page, 3, "Smooth");
+
+    const [surface, ...more] = torus.surfaces;
+    assert.deepEqual(more, []);
+    assert.deepEqual(surface.summary, { euler: 0, boundaries: 0, components: 1, orientable: true, genus: 1 });
+    assert.equal(await page.locator("#figure-topology").textContent(), "χ 0 · genus 1 · closed · orientable");
+    assert.deepEqual(torus.curves.map(({ role }) => role), ["Inner", "Inner", "Inner"]);
+    assert.ok(torus.figures.energy > 20 && torus.figures.energy < 200, `${torus.figures.energy}`);
+
+    // All the way back and forth again.
+    let acts = 0;
+    for (let state = torus; state.document !== empty.document; acts += 1) {
+      await page.keyboard.press("Control+z");
+      const before = state.document;
+      state = await untilInspect(page, ({ document }) => document !== before);
+    }
+    assert.equal(acts, 17, "a curve, a sheet, two drawn curves, a hole, eight points raised, an expansion, a sweep, two smoothings");
+    for (let state = await inspect(page); state.redo !== null; ) {
+      await page.keyboard.press("Control+Shift+Z");
+      const before = state.document;
+      state = await untilInspect(page, ({ document }) => document !== before);
+    }
+    const again = await atRest(page);
+    assert.equal(again.document, torus.document);
+    assert.deepEqual(again.surfaces[0].summary, surface.summary);
+  });
+});
