@@ -535,3 +535,102 @@ fn what_cannot_be_merged_or_glued_is_refused_with_a_reason() {
     let why = refusal(&mut bench, Edit::Glue { from, to: from, skirt: true, reversed: false });
     assert!(why.contains("same rim"), "{why}");
 }
+
+/// A ball of radius 0.6 on six points about the origin, and a disc of radius 1.5 or a cylinder of radius 0.3 through it.
+fn ball_and(disc: bool) -> Bench {
+    let at = [DVec3::X, DVec3::Y, DVec3::NEG_X, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z].map(|p| p * 0.6);
+    let points: Vec<String> =
+        at.iter().enumerate().map(|(k, p)| format!("\"{}\":[{},{},{}]", k + 1, p.x, p.y, p.z)).collect();
+    let text = format!(
+        r#"{{"ductile":1,"spacing":0.12,"points":{{{}}},"surfaces":{{"1":{{"skeleton":{{"vertices":[1,2,3,4,5,6],
+        "triangles":[[0,1,4],[1,2,4],[2,3,4],[3,0,4],[1,0,5],[2,1,5],[3,2,5],[0,3,5]]}}}}}}}}"#,
+        points.join(",")
+    );
+    let mut bench = with(&text);
+    let rings = if disc { vec![(1.5, 0.07)] } else { vec![(0.3, -1.1), (0.3, 1.1)] };
+    for (radius, z) in &rings {
+        let corners = circle(*radius, 4, *z).into_iter().map(ductile_spec::Through::Place).collect();
+        bench.edit(Edit::Curve { through: corners, closed: true });
+    }
+    if disc {
+        bench.edit(Edit::Sheet { boundary: CurveId(1) });
+    } else {
+        bench.edit(Edit::Sweep { from: CurveId(1), to: CurveId(2), reversed: false });
+        // A thin plate would bulge out of the ball; this stays a cylinder.
+        let of = ductile_spec::ObjectiveOf::Surface(SurfaceId(2));
+        bench.edit(Edit::Objective { of, objective: Some(ductile_spec::Objective::Fair) });
+    }
+    bench.rest(600);
+    bench
+}
+
+#[test]
+fn a_ball_and_a_disc_are_trimmed_and_stitched() {
+    for smooth in [false, true] {
+        let mut bench = ball_and(true);
+        let (first, second) = (on(1, dvec3(0.0, 0.0, 0.6)), on(2, dvec3(1.2, 0.0, 0.07)));
+        let kinds = act(&mut bench, Edit::Trim { first, second, smooth });
+        let document = bench.document();
+        // The rim of the disc, and the line in which they met: a control curve of both.
+        assert_eq!(document.curves.len(), 2);
+        let seam = &document.curves[&CurveId(2)];
+        assert!(seam.closed && (6..=8).contains(&seam.through.len()), "{seam:?}");
+        for point in &seam.through {
+            let at = document.points[point];
+            assert!((at.truncate().length() - 0.6).abs() < 0.02 && (at.z - 0.07).abs() < 1e-3, "{at}");
+        }
+        if smooth {
+            assert_eq!(kinds, [(1, 1, 1, true)]);
+        } else {
+            assert_eq!(kinds, [(1, 1, 1, true), (2, 0, 2, true)]);
+        }
+        bench.rest(600);
+        // The seam is reshaped, and both follow.
+        let point = seam.through[0];
+        let to = document.points[&point] * 1.15;
+        bench.edit(Edit::Move { point, to });
+        bench.rest(600);
+    }
+}
+
+#[test]
+fn a_cylinder_through_a_ball_is_trimmed_at_the_part_that_stays() {
+    // Of two intersections only the one at the upper end counts when the upper end stays.
+    let mut bench = ball_and(false);
+    let (first, second) = (on(1, dvec3(0.6, 0.0, 0.0)), on(2, dvec3(0.3, 0.0, 0.9)));
+    let kinds = act(&mut bench, Edit::Trim { first, second, smooth: true });
+    assert_eq!(kinds, [(1, 1, 1, true)]);
+    bench.rest(600);
+    // Of the cylinder's middle both count: a ball with a hole through it, a torus.
+    let mut bench = ball_and(false);
+    let (first, second) = (on(1, dvec3(0.6, 0.0, 0.0)), on(2, dvec3(0.3, 0.0, 0.0)));
+    let kinds = act(&mut bench, Edit::Trim { first, second, smooth: false });
+    assert_eq!(kinds, [(1, 0, 2, true), (2, 0, 2, true)]);
+    let seams: Vec<CurveId> = bench.document().curves.keys().copied().collect();
+    let kinds = act(&mut bench, Edit::Smooth { curve: seams[0] });
+    assert_eq!(kinds, [(1, 0, 2, true)]);
+    let kinds = act(&mut bench, Edit::Smooth { curve: seams[1] });
+    assert_eq!(kinds, [(1, 0, 0, true)]);
+    bench.rest(600);
+}
+
+#[test]
+fn what_cannot_be_trimmed_is_refused_with_a_reason() {
+    let mut bench = two_discs();
+    let (first, second) = (on(1, DVec3::ZERO), on(2, dvec3(0.0, 0.0, 1.2)));
+    let why = refusal(&mut bench, Edit::Trim { first, second, smooth: false });
+    assert!(why.contains("do not meet"), "{why}");
+    let why = refusal(&mut bench, Edit::Trim { first, second: first, smooth: false });
+    assert!(why.contains("itself"), "{why}");
+    let why = refusal(&mut bench, Edit::Trim { first, second: on(2, DVec3::NAN), smooth: false });
+    assert!(!why.is_empty());
+    // A disc set upright into the other meets it in a line that ends.
+    for (point, to) in
+        [(5, [0.3, 0.0, -0.5]), (6, [0.0, 0.5, 0.4]), (7, [-0.3, 0.0, 0.5]), (8, [0.0, -0.5, 0.4])]
+    {
+        bench.edit(Edit::Move { point: PointId(point), to: DVec3::from_array(to) });
+    }
+    bench.rest(600);
+    let why = refusal(&mut bench, Edit::Trim { first: on(1, dvec3(0.9, 0.0, 0.0)), second, smooth: false });
+    assert!(why.contains("ends at a rim"), "{why}");
+}

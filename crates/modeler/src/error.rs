@@ -1,6 +1,6 @@
 //! Why the modeler refuses: typed, with the offending thing in the message, in words for the designer.
 
-use ductile_mesh::{BridgeError, BuildError, GlueError, PathError};
+use ductile_mesh::{BridgeError, BuildError, GlueError, IntersectError, PathError};
 use ductile_solver::SolverError;
 use ductile_spec::{CurveId, Defect, LinkError, PointId, SurfaceId, TextError};
 use thiserror::Error;
@@ -247,6 +247,38 @@ pub enum ModelError {
         "{0} has no room for the hole here: a rim or a curve is too near, or the surface bends too sharply. Choose another place, or a smaller radius"
     )]
     NoRoom(SurfaceId),
+    /// Two surfaces are trimmed against each other.
+    #[error("{0} cannot be trimmed against itself; choose two surfaces")]
+    TrimsItself(SurfaceId),
+    /// The surfaces do not meet.
+    #[error("{0} and {1} do not meet: move them so that they run through one another")]
+    NoMeeting(SurfaceId, SurfaceId),
+    /// The line in which they meet ends at a rim.
+    #[error(
+        "{0} and {1} meet in a line that ends at a rim, so that it cuts nothing off; let them run through one another"
+    )]
+    OpenMeeting(SurfaceId, SurfaceId),
+    /// How the surfaces meet cannot be told.
+    #[error("{one} and {other} touch rather than cross: {why}")]
+    Untold {
+        /// The first.
+        one: SurfaceId,
+        /// The second.
+        other: SurfaceId,
+        /// Why.
+        why: IntersectError,
+    },
+    /// No line bounds both parts that are to stay.
+    #[error("the parts of {0} and {1} that are to stay do not meet anywhere")]
+    PartsApart(SurfaceId, SurfaceId),
+    /// A curve that is to lie in a surface crosses another one there.
+    #[error("{curve} would cross another curve of {surface}; release that one first")]
+    CrossesCurve {
+        /// The curve.
+        curve: CurveId,
+        /// The surface.
+        surface: SurfaceId,
+    },
     /// A size is not a usable number.
     #[error("a radius must be a positive number up to 1e6")]
     BadRadius,

@@ -2,8 +2,8 @@
 
 use crate::error::ModelError;
 use crate::model::Model;
-use crate::operation::{is_unused, refresh_skeleton, region, release, ribbon};
-use crate::shape::edit;
+use crate::operation::{forget_unused_points, is_unused, refresh_skeleton, region, release, ribbon};
+use crate::shape::{SurfaceShape, edit};
 use ductile_spec::{CurveId, PointId, SkeletonVertex, SurfaceId};
 
 /// Removes a control point; what hangs on it is released first.
@@ -78,6 +78,17 @@ pub(crate) fn surface(model: &mut Model, id: SurfaceId) -> Result<(), ModelError
     });
     drop_unused(model, points);
     Ok(())
+}
+
+/// Removes curves of a surface as it was that no surface follows any more, and the points that only they used.
+pub(crate) fn forget_lost_curves(model: &mut Model, before: &SurfaceShape) {
+    for embedded in &before.embeddings {
+        if model.document.surfaces_on(embedded.curve).next().is_none() {
+            model.document_mut().curves.remove(&embedded.curve);
+            model.curves.remove(&embedded.curve);
+        }
+    }
+    forget_unused_points(model, before);
 }
 
 fn drop_unused(model: &mut Model, points: impl IntoIterator<Item = PointId>) {

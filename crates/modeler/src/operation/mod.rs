@@ -4,7 +4,7 @@
 mod burnout;
 mod crease;
 mod curve;
-mod delete;
+pub(crate) mod delete;
 mod density;
 mod expand;
 mod glue;
@@ -26,6 +26,7 @@ mod spacing;
 mod split;
 mod sweep;
 mod tangent;
+mod trim;
 
 use crate::error::ModelError;
 use crate::model::Model;
@@ -67,7 +68,7 @@ fn act(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result<(), ModelErr
         Edit::SLoop { surface, along, closed } => s_loop::s_loop(model, *surface, along, *closed),
         Edit::Glue { from, to, skirt, reversed } => glue::glue(model, *from, *to, *skirt, *reversed),
         Edit::Merge { from, to, radius, keep } => merge::merge(model, *from, *to, *radius, *keep),
-        Edit::Trim { .. } => Err(ModelError::NothingHeld),
+        Edit::Trim { first, second, smooth } => trim::trim(model, *first, *second, *smooth),
         Edit::Pin { surface, at } => pin(model, relaxer, *surface, *at).map(drop),
         Edit::Insert { curve, at } => insert(model, *curve, *at).map(drop),
         Edit::Release { point } => release::release(model, *point),

@@ -2,8 +2,10 @@
 //!
 //! The mesh is cut or glued first, as `ductile_mesh` does it, and everything else is found again on the new mesh: which
 //! stretches of which curves are still there ([`runs`]), which pieces have come apart and what the document said of them
-//! ([`pieces`]), which rims are laid on one another ([`joining`], [`rims`]), which way a curve takes over a surface ([`tracing`]).
+//! ([`pieces`]), which rims are laid on one another ([`joining`], [`rims`]), which way a curve takes over a surface ([`tracing`]),
+//! and with which vertices a surface follows a curve that is there already ([`following`]).
 
+pub(crate) mod following;
 pub(crate) mod joining;
 pub(crate) mod opening;
 pub(crate) mod pieces;

@@ -2,11 +2,12 @@
 
 use crate::error::ModelError;
 use crate::model::Model;
-use crate::operation::{forget_unused_points, refresh_skeleton};
+use crate::operation::delete::forget_lost_curves;
+use crate::operation::refresh_skeleton;
 use crate::shape::{SurfaceShape, edit};
 use crate::surgery::joining::{Told, United, say, sew, split, unite};
 use ductile_mesh::{Bridge, BridgeError, Mesh, Seam, Sense, VertexId, boundary_loops, propagate_orientation};
-use ductile_spec::{CurveId, On, SurfaceId};
+use ductile_spec::{On, SurfaceId};
 use glam::DVec3;
 use std::sync::Arc;
 
@@ -160,8 +161,7 @@ pub(crate) fn lay(
     sew_loops(model, id, first, gone)?;
     refresh_skeleton(model, id);
     say(model, id, &told);
-    forget_free_curves(model, &before);
-    forget_unused_points(model, &before);
+    forget_lost_curves(model, &before);
     model.document.validate()?;
     Ok(id)
 }
@@ -206,15 +206,4 @@ fn lengthen(model: &mut Model, id: SurfaceId, rim: &mut Rim) -> Result<(), Model
     let new = split(model, id, edge)?;
     insert_between(rim, ends, new);
     Ok(())
-}
-
-/// Curves that only a rim of a surface followed, which is gone.
-fn forget_free_curves(model: &mut Model, before: &SurfaceShape) {
-    let candidates: Vec<CurveId> = before.embeddings.iter().map(|e| e.curve).collect();
-    for id in candidates {
-        if model.document.surfaces_on(id).next().is_none() {
-            model.document_mut().curves.remove(&id);
-            model.curves.remove(&id);
-        }
-    }
 }
