@@ -10,7 +10,7 @@ const STEPS: u32 = 200;
 #[test]
 fn examples_give_the_recorded_bits_after_200_steps() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/bits.json");
-    let now: BTreeMap<&str, u32> = Example::ALL.map(|e| (e.word(), bits_after(e, STEPS))).into();
+    let now: BTreeMap<&str, u32> = Example::all().map(|e| (e.word(), bits_after(e, STEPS))).collect();
     if std::env::var_os("BLESS").is_some() {
         std::fs::write(path, serde_json::to_string_pretty(&now).unwrap() + "\n").unwrap();
     }

@@ -1,7 +1,9 @@
-//! The examples: small documents, each of which would fit in a message.
+//! The examples: small documents, each of which would fit in a message. Plain ones are written down here. The thesis's
+//! constructions are what scripts of acts give: their documents are kept as text, and `tests/examples.rs` makes them again.
 
 use ductile_spec::{
     Curve, CurveId, Document, Embedding, Example, PointId, Skeleton, SkeletonVertex, Surface, SurfaceId,
+    from_text,
 };
 use glam::{DVec3, dvec3};
 
@@ -14,9 +16,21 @@ pub fn example(example: Example) -> Document {
         Example::Saddle => saddle(),
         Example::Cylinder => cylinder(),
         Example::Ball => ball(),
+        Example::Torus => built(include_str!("example/torus.ductile.json")),
+        Example::PartyHat => built(include_str!("example/party-hat.ductile.json")),
+        Example::CappedCylinder => built(include_str!("example/capped-cylinder.ductile.json")),
+        Example::GluedCylinders => built(include_str!("example/glued-cylinders.ductile.json")),
+        Example::Handle => built(include_str!("example/handle.ductile.json")),
+        Example::KleinMug => built(include_str!("example/klein-mug.ductile.json")),
+        Example::ThreeHandles => built(include_str!("example/three-handles.ductile.json")),
     };
     example.title().clone_into(&mut document.name);
     document
+}
+
+/// What a script gave.
+fn built(text: &str) -> Document {
+    from_text(text).expect("the texts are part of the program, and a test reads each of them")
 }
 
 /// Four points on the unit circle, on the diagonals; 0.7071 keeps the link short.
@@ -114,11 +128,12 @@ mod tests {
 
     #[test]
     fn every_example_is_valid_and_fits_in_a_short_link() {
-        for kind in Example::ALL {
+        for kind in Example::all() {
             let document = example(kind);
             document.validate().unwrap();
             let link = ductile_spec::to_fragment(&document);
-            assert!(link.len() < 700, "{kind:?}: {} characters", link.len());
+            let most = if Example::PLAIN.contains(&kind) { 700 } else { 1500 };
+            assert!(link.len() < most, "{kind:?}: {} characters", link.len());
         }
     }
 }

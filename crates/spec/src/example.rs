@@ -16,11 +16,41 @@ pub enum Example {
     Cylinder,
     /// A closed surface of genus 0 held by six points.
     Ball,
+    /// A torus on three curves (thesis figure 3.1).
+    Torus,
+    /// A surface with three branches (thesis figures 2.1 and 4.11).
+    PartyHat,
+    /// A cylinder capped to a sphere (thesis figure 4.6).
+    CappedCylinder,
+    /// Two cylinders joined end to end (thesis figure 4.7).
+    GluedCylinders,
+    /// A torus with a handle attached at both ends (thesis figure 7.2).
+    Handle,
+    /// A closed surface with one side (thesis figure 7.3).
+    KleinMug,
+    /// A surface of genus 3: one ball, merged with itself three times.
+    ThreeHandles,
 }
 
 impl Example {
+    /// The examples that are written down as they are.
+    pub const PLAIN: [Self; 5] = [Self::Disc, Self::RaisedDisc, Self::Saddle, Self::Cylinder, Self::Ball];
+
+    /// The constructions of the thesis, which a script of acts builds.
+    pub const BUILT: [Self; 7] = [
+        Self::Torus,
+        Self::PartyHat,
+        Self::CappedCylinder,
+        Self::GluedCylinders,
+        Self::Handle,
+        Self::KleinMug,
+        Self::ThreeHandles,
+    ];
+
     /// All examples, in the order of the menu.
-    pub const ALL: [Self; 5] = [Self::Disc, Self::RaisedDisc, Self::Saddle, Self::Cylinder, Self::Ball];
+    pub fn all() -> impl Iterator<Item = Self> {
+        Self::PLAIN.into_iter().chain(Self::BUILT)
+    }
 
     /// What the menu calls it.
     #[must_use]
@@ -31,6 +61,13 @@ impl Example {
             Self::Saddle => "Saddle",
             Self::Cylinder => "Cylinder",
             Self::Ball => "Ball on six points",
+            Self::Torus => "Torus on three curves",
+            Self::PartyHat => "Party hat",
+            Self::CappedCylinder => "Capped cylinder",
+            Self::GluedCylinders => "Glued cylinders",
+            Self::Handle => "Torus with a handle",
+            Self::KleinMug => "Klein mug",
+            Self::ThreeHandles => "Three handles",
         }
     }
 
@@ -43,6 +80,13 @@ impl Example {
             Self::Saddle => "saddle",
             Self::Cylinder => "cylinder",
             Self::Ball => "ball",
+            Self::Torus => "torus",
+            Self::PartyHat => "party-hat",
+            Self::CappedCylinder => "capped-cylinder",
+            Self::GluedCylinders => "glued-cylinders",
+            Self::Handle => "handle",
+            Self::KleinMug => "klein-mug",
+            Self::ThreeHandles => "three-handles",
         }
     }
 }

@@ -15,7 +15,7 @@ const BITS: &str = include_str!("../../../tests/fixtures/bits.json");
 #[test]
 fn examples_give_the_bits_of_the_native_program_after_200_steps() {
     let recorded: serde_json::Value = serde_json::from_str(BITS).unwrap();
-    for example in Example::ALL {
+    for example in Example::all() {
         let now = bits_after(example, 200);
         assert_eq!(recorded[example.word()].as_u64(), Some(u64::from(now)), "{example:?}");
     }

@@ -97,7 +97,7 @@ fn place_below(menu: &HtmlElement, button: &HtmlElement) {
 
 fn list_examples() {
     let shelf = dom::element("examples");
-    for example in Example::ALL {
+    for example in Example::all() {
         let button = dom::command_button("", "", "example");
         dom::attribute(&button, "role", "menuitem");
         dom::attribute(&button, "data-subject", example.word());
@@ -137,7 +137,7 @@ impl Page {
             "export-obj" => self.export(),
             "link" => self.copy_link(),
             "example" => {
-                if let Some(example) = Example::ALL.into_iter().find(|e| Some(e.word()) == subject) {
+                if let Some(example) = Example::all().find(|e| Some(e.word()) == subject) {
                     self.request(Request::OpenExample(example));
                 }
             }

@@ -1,0 +1,116 @@
+//! The constructions of the thesis among the examples: each is built by the script of acts in `scripts/`, in the words of the
+//! page, and what the script gives is what the menu opens, to the letter. `BLESS=1` writes the documents anew.
+
+#![allow(clippy::unwrap_used, reason = "a failing test should stop where it fails")]
+#![allow(clippy::print_stdout, reason = "the figures are worth seeing with --nocapture")]
+
+use acceptance::Bench;
+use ductile_mesh::{quality, summary};
+use ductile_spec::{Edit, Example, Request, to_fragment, to_text};
+use serde_json::Value;
+
+/// What an example is known by.
+struct Known {
+    example: Example,
+    euler: i64,
+    boundaries: usize,
+    is_orientable: bool,
+    /// ∫ κ₁² + κ₂² at rest.
+    energy: f64,
+    /// Sharpest angle of a triangle at rest, in degrees, is above this.
+    angle: f64,
+}
+
+const fn known(example: Example, kind: (i64, usize, bool), energy: f64, angle: f64) -> Known {
+    let (euler, boundaries, is_orientable) = kind;
+    Known { example, euler, boundaries, is_orientable, energy, angle }
+}
+
+const KNOWN: [Known; Example::BUILT.len()] = [
+    known(Example::Torus, (0, 0, true), 86.998, 30.0),
+    known(Example::PartyHat, (-2, 4, true), 72.100, 30.0),
+    known(Example::CappedCylinder, (2, 0, true), 25.047, 30.0),
+    known(Example::GluedCylinders, (0, 2, true), 24.755, 30.0),
+    known(Example::Handle, (-2, 0, true), 189.688, 25.0),
+    known(Example::KleinMug, (0, 0, false), 144.878, 25.0),
+    known(Example::ThreeHandles, (-4, 0, true), 230.764, 27.0),
+];
+
+fn path(folder: &str, example: Example, ending: &str) -> String {
+    format!("{}/{folder}/{}.{ending}", env!("CARGO_MANIFEST_DIR"), example.word())
+}
+
+/// Does the acts of an example's script, from nothing.
+fn run(example: Example) -> Bench {
+    let text = std::fs::read_to_string(path("scripts", example, "json")).unwrap();
+    let acts: Vec<Value> = serde_json::from_str(&text).unwrap();
+    let mut bench = Bench::new();
+    for (act, number) in acts.into_iter().zip(1..) {
+        if act == "rest" {
+            bench.rest(600);
+            continue;
+        }
+        let edit: Edit = serde_json::from_value(act).unwrap_or_else(|e| panic!("{example:?} {number}: {e}"));
+        let refused = bench.send(Request::Edit(edit)).refused;
+        assert_eq!(refused, None, "{example:?}: act {number}");
+    }
+    bench
+}
+
+#[test]
+fn every_built_example_is_what_its_script_gives() {
+    for example in Example::BUILT {
+        let made = run(example).document();
+        let text = to_text(&made);
+        let link = to_fragment(&made).len();
+        println!("{example:?}: a link of {link} characters");
+        assert!(link < 1500, "{example:?} makes a link of {link} characters");
+        let file = path("../crates/modeler/src/example", example, "ductile.json");
+        if std::env::var_os("BLESS").is_some() {
+            std::fs::write(&file, &text).unwrap();
+        }
+        assert_eq!(std::fs::read_to_string(&file).unwrap(), text, "{example:?}");
+    }
+}
+
+#[test]
+fn every_built_example_is_the_kind_of_surface_that_it_is_called() {
+    for known in KNOWN {
+        let bench = Bench::with(known.example);
+        let surfaces = &bench.modeler.model().surfaces;
+        assert_eq!(surfaces.len(), 1, "{:?}", known.example);
+        let found = summary(&surfaces.values().next().unwrap().mesh);
+        assert_eq!(found.components, 1, "{:?}", known.example);
+        assert_eq!(
+            (found.euler, found.boundaries, found.is_orientable),
+            (known.euler, known.boundaries, known.is_orientable),
+            "{:?}",
+            known.example
+        );
+    }
+}
+
+#[test]
+fn every_built_example_comes_to_rest_at_its_energy() {
+    for known in KNOWN {
+        let mut bench = Bench::with(known.example);
+        let mut steps = 0;
+        let energy = loop {
+            steps += 1;
+            let reply = bench.step(None);
+            if reply.frame.settled {
+                break reply.frame.figures.energy;
+            }
+            assert!(steps < 600, "{:?} is not at rest after {steps} steps", known.example);
+        };
+        let shape = bench.modeler.model().surfaces.values().next().unwrap().clone();
+        let least = quality(&shape.mesh, &shape.positions).least_angle.to_degrees();
+        println!(
+            "{:?}: energy {energy:.4}, {steps} steps, {} vertices, least angle {least:.1}",
+            known.example,
+            shape.mesh.vertex_count()
+        );
+        assert!((energy / known.energy - 1.0).abs() < 1e-3, "{:?}: energy {energy}", known.example);
+        assert!(least > known.angle, "{:?}: an angle of {least}", known.example);
+    }
+}
