@@ -634,3 +634,24 @@ fn what_cannot_be_trimmed_is_refused_with_a_reason() {
     let why = refusal(&mut bench, Edit::Trim { first: on(1, dvec3(0.9, 0.0, 0.0)), second, smooth: false });
     assert!(why.contains("ends at a rim"), "{why}");
 }
+
+#[test]
+fn a_loop_never_leaves_a_vertex_with_more_neighbours_than_can_be_solved() {
+    for (outer, inner, turn) in [(0.936_833, 0.542_377, 0.0), (0.937, 0.54, 0.3), (0.937, 0.54, 0.0)] {
+        let mut bench = Bench::new();
+        let turned = |radius: f64, turn: f64| -> Vec<DVec3> {
+            let (sin, cos) = libm::sincos(turn);
+            let (u, v) = (dvec3(cos, sin, 0.0) * radius, dvec3(-sin, cos, 0.0) * radius);
+            vec![u, v, -u, -v]
+        };
+        let corners = turned(outer, 0.0).into_iter().map(ductile_spec::Through::Place).collect();
+        bench.edit(Edit::Curve { through: corners, closed: true });
+        bench.edit(Edit::Sheet { boundary: CurveId(1) });
+        bench.rest(600);
+        act(&mut bench, s_loop(1, turned(inner, turn), true));
+        bench.rest(600);
+        let model = bench.modeler.model();
+        let shape = &model.surfaces[&SurfaceId(1)];
+        assert!(bench.modeler.relaxer().surface(SurfaceId(1), shape).is_some(), "{outer} {inner} {turn}");
+    }
+}

@@ -288,6 +288,14 @@ pub enum ModelError {
     /// One curve closes and the other does not.
     #[error("{0} and {1} are unlike: a sweep needs two closed curves, or two open ones")]
     UnlikeCurves(CurveId, CurveId),
+    /// The triangles beside a curve must be improved before it can get another sample.
+    #[error("too many triangles of {surface} meet beside {curve}; wait until it rests, then try again")]
+    Crowded {
+        /// The curve.
+        curve: CurveId,
+        /// The surface.
+        surface: SurfaceId,
+    },
     /// Nothing is held.
     #[error("nothing is held")]
     NothingHeld,

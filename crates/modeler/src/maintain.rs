@@ -3,6 +3,7 @@
 
 use crate::bound::BoundSurface;
 use crate::density::{self, Along};
+use crate::error::ModelError;
 use crate::model::{Model, NODE_BUDGET};
 use crate::shadow;
 use crate::shape::{CurveShape, SurfaceShape, edit};
@@ -166,6 +167,22 @@ fn take_sizing(shape: &mut SurfaceShape, coarseness: usize) -> Sizing {
     } else {
         Sizing::PerVertex(core::mem::take(&mut shape.wanted))
     }
+}
+
+/// Improves a mesh at once if a vertex of it has more neighbours than the solver can hold: a curve that is laid through
+/// many triangles may leave one so.
+///
+/// # Errors
+/// [`ModelError::Unsolvable`] if it has afterwards as well.
+pub(crate) fn thin_out(model: &mut Model, id: SurfaceId) -> Result<(), ModelError> {
+    let Some(shape) = model.surfaces.get_mut(&id) else { return Ok(()) };
+    let most = Limits::default().most_neighbours;
+    let is_crowded = |mesh: &Mesh| mesh.vertices().any(|v| mesh.valence(v) > most);
+    if !is_crowded(&shape.mesh) {
+        return Ok(());
+    }
+    refine(edit::<SurfaceShape>(shape), 1);
+    BoundSurface::new(id, shape).map(drop)
 }
 
 /// Refines a skeleton to a multiple of the spacing.

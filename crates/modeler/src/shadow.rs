@@ -4,6 +4,8 @@
 use crate::error::ModelError;
 use crate::model::Model;
 use crate::shape::edit;
+use ductile_mesh::VertexId;
+use ductile_mesh::remesh::Limits;
 use ductile_spec::CurveId;
 use glam::DVec3;
 
@@ -11,7 +13,8 @@ use glam::DVec3;
 /// Returns the index of the sample.
 ///
 /// # Errors
-/// [`ModelError::TornOff`] before anything has changed, if a surface has no edge where the curve has one.
+/// Before anything has changed: [`ModelError::TornOff`] if a surface has no edge where the curve has one,
+/// [`ModelError::Crowded`] if too many triangles meet beside it.
 pub(crate) fn insert_sample(
     model: &mut Model,
     id: CurveId,
@@ -23,8 +26,13 @@ pub(crate) fn insert_sample(
         let Some(shape) = model.surfaces.get(&surface) else { continue };
         for followed in shape.embeddings.iter().filter(|followed| followed.curve == id) {
             let ends = followed.vertices.get(a).zip(followed.vertices.get(b));
-            if ends.and_then(|(from, to)| shape.mesh.edge_between(*from, *to)).is_none() {
-                return Err(ModelError::TornOff { curve: id, surface });
+            let edge = ends.and_then(|(from, to)| shape.mesh.edge_between(*from, *to));
+            let edge = edge.ok_or(ModelError::TornOff { curve: id, surface })?;
+            // The split gives the corners opposite one neighbour more.
+            let (c, d) = shape.mesh.edge_opposites(edge);
+            let is_full = |v: VertexId| shape.mesh.valence(v) >= Limits::default().most_neighbours;
+            if is_full(c) || d.is_some_and(is_full) {
+                return Err(ModelError::Crowded { curve: id, surface });
             }
         }
     }
@@ -76,7 +84,12 @@ pub(crate) fn remove_sample(model: &mut Model, id: CurveId, sample: usize) -> bo
     let possible = surfaces.iter().all(|surface| {
         model.surfaces.get(surface).is_some_and(|shape| {
             let mut on_curve = shape.embeddings.iter().filter(|e| e.curve == id);
-            on_curve.all(|e| shape.mesh.can_collapse(e.vertices[sample], e.vertices[before]).is_ok())
+            on_curve.all(|e| {
+                let (gone, kept) = (e.vertices[sample], e.vertices[before]);
+                // Of the neighbours of both, the two are none any more, and the two between them count once.
+                let ring = shape.mesh.valence(gone) + shape.mesh.valence(kept) - 4;
+                ring <= Limits::default().most_neighbours && shape.mesh.can_collapse(gone, kept).is_ok()
+            })
         })
     });
     if !possible {

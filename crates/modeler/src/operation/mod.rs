@@ -29,6 +29,7 @@ mod tangent;
 mod trim;
 
 use crate::error::ModelError;
+use crate::maintain;
 use crate::model::Model;
 use crate::relax::Relaxer;
 use crate::shape::SurfaceShape;
@@ -49,6 +50,12 @@ const POSITION_DIGITS: i32 = 6;
 /// [`ModelError`] says why it cannot be done; the model may then be half changed and must be dropped.
 pub(crate) fn apply(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result<(), ModelError> {
     act(model, relaxer, edit)?;
+    for id in model.surfaces.keys().copied().collect::<Vec<_>>() {
+        let is_new = model.surfaces.get(&id).is_some_and(|shape| relaxer.surface(id, shape).is_none());
+        if is_new {
+            maintain::thin_out(model, id)?;
+        }
+    }
     model.check_extents()
 }
 
