@@ -5,6 +5,7 @@
 //! rest refused; in the browser 20. A history that fails is made shorter before it is shown.
 
 #![allow(clippy::unwrap_used, reason = "a failing test should stop where it fails")]
+#![allow(clippy::print_stdout, reason = "the count is worth seeing with --nocapture")]
 
 mod acts;
 mod census;
