@@ -655,3 +655,32 @@ fn a_loop_never_leaves_a_vertex_with_more_neighbours_than_can_be_solved() {
         assert!(bench.modeler.relaxer().surface(SurfaceId(1), shape).is_some(), "{outer} {inner} {turn}");
     }
 }
+
+#[test]
+fn a_surface_follows_a_curve_that_has_lost_its_first_point() {
+    let mut bench = two_discs();
+    bench.edit(Edit::Release { point: PointId(5) });
+    let kinds = act(&mut bench, Edit::Sweep { from: CurveId(1), to: CurveId(2), reversed: false });
+    assert_eq!(kinds, [(1, 1, 1, true), (2, 1, 1, true), (3, 0, 2, true)]);
+}
+
+#[test]
+fn curves_that_end_at_a_cut_end_on_their_own_bank() {
+    let mut bench = disc();
+    act(&mut bench, s_loop(1, circle(0.5, 6, 0.0), true));
+    bench.rest(600);
+    // One ends there from inside, one from outside: one of them is on the bank that gets new points.
+    for along in [[0.1, 0.3, 0.5], [-0.85, -0.7, -0.5]] {
+        let along = along.map(|x| dvec3(x, 0.03 * (1.0 - 4.0 * x * x), 0.0)).to_vec();
+        act(&mut bench, s_loop(1, along, false));
+        bench.rest(600);
+    }
+    // A point at which curves cross is not let go: each would pull the surface to itself.
+    let document = bench.document();
+    let (round, inside) = (&document.curves[&CurveId(2)].through, &document.curves[&CurveId(3)].through);
+    let hub = round.iter().copied().find(|point| inside.contains(point)).unwrap();
+    assert!(!refusal(&mut bench, Edit::Release { point: hub }).is_empty());
+    let kinds = act(&mut bench, Edit::Split { border: Border::Curve(CurveId(2)) });
+    assert_eq!(kinds, [(1, 0, 2, true), (2, 1, 1, true)]);
+    bench.rest(600);
+}

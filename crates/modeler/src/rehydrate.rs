@@ -278,9 +278,13 @@ fn embed_curves(
 
 /// A curve as far as it is placed.
 fn embedded(path: &Path, curves: &BTreeMap<CurveId, Arc<CurveShape>>) -> EmbeddedCurve {
-    // A closed path ends with its first vertex again.
-    let open_end = usize::from(curves.get(&path.curve).is_some_and(|curve| curve.closed));
-    let vertices = path.placed[..path.placed.len() - open_end].iter().map(|(_, v)| *v).collect();
+    // A closed path ends with its first vertex again. It begins at a control, which is not the curve's first sample any
+    // more when another control was there once and was released.
+    let closed = curves.get(&path.curve).filter(|curve| curve.closed);
+    let placed = &path.placed[..path.placed.len() - usize::from(closed.is_some())];
+    let turned = closed.and_then(|curve| placed.iter().position(|(sample, _)| *sample >= curve.nodes.len()));
+    let mut vertices: Vec<VertexId> = placed.iter().map(|(_, v)| *v).collect();
+    vertices.rotate_left(turned.unwrap_or(0));
     EmbeddedCurve { curve: path.curve, vertices }
 }
 

@@ -22,8 +22,9 @@ pub(crate) fn curve(model: &mut Model, id: CurveId) -> Result<(), ModelError> {
     let surfaces: Vec<SurfaceId> = model.document.surfaces_on(id).collect();
     for surface in &surfaces {
         let shape = model.surfaces.get(surface).ok_or(ModelError::NoSurface(*surface))?;
-        let bounds = |v| shape.mesh.is_boundary_vertex(v);
-        if shape.embeddings.iter().any(|e| e.curve == id && e.vertices.iter().any(|v| bounds(*v))) {
+        // Its ends may lie on a rim; it bounds the surface where it runs along one.
+        let is_own = |e: &ductile_mesh::EdgeId| shape.mesh.edge_source(*e).is_some_and(|tag| tag.0 == id.0);
+        if shape.mesh.edges().any(|e| is_own(&e) && shape.mesh.is_boundary_edge(e)) {
             return Err(ModelError::BoundsSurface { curve: id, surface: *surface });
         }
     }

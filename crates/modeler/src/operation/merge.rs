@@ -8,7 +8,7 @@ use crate::operation::{burnout, delete};
 use crate::surgery::opening::{edges_around, region_at};
 use crate::surgery::rims::{Rim, band};
 use crate::surgery::tracing::Stop;
-use ductile_mesh::{SourceTag, measure, nearest_place};
+use ductile_mesh::{SourceTag, measure, nearest_place, summary};
 use ductile_spec::{CurveId, MAX_COORDINATE, On, SurfaceId};
 use glam::DVec3;
 
@@ -77,7 +77,14 @@ fn pierce(model: &mut Model, on: On, towards: DVec3, radius: f64) -> Result<Curv
     let around = edges_around(&shape.mesh, &is_in);
     let is_own = around.iter().all(|e| shape.mesh.edge_source(*e) == Some(SourceTag(curve.0)));
     let is_free = through.len() == CORNERS as usize && through.iter().all(|point| *point >= before);
-    if !(is_own && is_free && around.len() == model.curves.get(&curve).map_or(0, |c| c.nodes.len())) {
+    // What is given up is a disc: no rim and no handle lies in it.
+    let inside = shape.mesh.extract(|f| is_in[f.index()]).map(|part| summary(&part.mesh));
+    let is_disc = inside.is_some_and(|inside| (inside.euler, inside.boundaries) == (1, 1));
+    if !(is_disc
+        && is_own
+        && is_free
+        && around.len() == model.curves.get(&curve).map_or(0, |c| c.nodes.len()))
+    {
         return Err(ModelError::NoRoom(id));
     }
     burnout::burnout(model, region)?;

@@ -28,6 +28,7 @@ mod sweep;
 mod tangent;
 mod trim;
 
+use crate::bound::BoundSurface;
 use crate::error::ModelError;
 use crate::maintain;
 use crate::model::Model;
@@ -39,6 +40,7 @@ use std::sync::Arc;
 
 pub(crate) use insert::insert;
 pub(crate) use pin::pin;
+pub(crate) use ribbon::forget_lost;
 
 /// Digits of a position that a document keeps, counted from the leading digit of the model's radius.
 /// A millionth of the model is finer than a pixel and keeps links short.
@@ -54,6 +56,10 @@ pub(crate) fn apply(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result
         let is_new = model.surfaces.get(&id).is_some_and(|shape| relaxer.surface(id, shape).is_none());
         if is_new {
             maintain::thin_out(model, id)?;
+        }
+        // What was cut or joined on a crumpled surface may be no surface that can be solved for.
+        if let Some(shape) = model.surfaces.get(&id).filter(|_| is_new) {
+            BoundSurface::new(id, shape)?;
         }
     }
     model.check_extents()

@@ -4,8 +4,8 @@ use crate::error::ModelError;
 use crate::model::Model;
 use crate::operation::{is_unused, refresh_skeleton, region, ribbon};
 use crate::shape::edit;
-use ductile_mesh::SourceTag;
-use ductile_spec::{CurveId, PointId};
+use ductile_mesh::{SourceTag, VertexId};
+use ductile_spec::{CurveId, PointId, SurfaceId};
 
 /// Frees every curve and surface from a control point and removes it.
 pub(crate) fn release(model: &mut Model, point: PointId) -> Result<(), ModelError> {
@@ -14,6 +14,12 @@ pub(crate) fn release(model: &mut Model, point: PointId) -> Result<(), ModelErro
         return Err(ModelError::NothingToRelease(point));
     }
     let surfaces: Vec<_> = model.document.surfaces_through(point).collect();
+    for id in &surfaces {
+        if let Some(curve) = crossing(model, *id, point) {
+            let why = "another curve of the surface crosses it there";
+            return Err(ModelError::NeededByCurve { curve, point, why });
+        }
+    }
     for id in model.document.curves_through(point).collect::<Vec<_>>() {
         release_from_curve(model, id, point)?;
     }
@@ -37,6 +43,24 @@ pub(crate) fn release(model: &mut Model, point: PointId) -> Result<(), ModelErro
     ribbon::forget_lost(model);
     model.document.validate()?;
     Ok(())
+}
+
+/// A curve that another one crosses at a control point of a surface: a single vertex follows both, and without a control
+/// in common they would pull it apart.
+fn crossing(model: &Model, id: SurfaceId, point: PointId) -> Option<CurveId> {
+    let shape = model.surfaces.get(&id)?;
+    let is_there = |v: &VertexId| shape.mesh.vertex_source(*v) == Some(SourceTag(point.0));
+    let mut met = Vec::new();
+    for embedded in &shape.embeddings {
+        let vertices = embedded.vertices.iter().filter(|v| is_there(v));
+        for v in vertices {
+            if met.contains(v) {
+                return Some(embedded.curve);
+            }
+            met.push(*v);
+        }
+    }
+    None
 }
 
 fn release_from_curve(model: &mut Model, id: CurveId, point: PointId) -> Result<(), ModelError> {

@@ -55,7 +55,7 @@ pub(super) fn check_bends(model: &Model, id: SurfaceId) -> Result<(), ModelError
 }
 
 /// Forgets what was prescribed where surfaces have no controls any more.
-pub(super) fn forget_lost(model: &mut Model) {
+pub(crate) fn forget_lost(model: &mut Model) {
     let document = model.document_mut();
     let curves = &document.curves;
     for surface in document.surfaces.values_mut() {

@@ -69,15 +69,17 @@ fn along(model: &Model, curve: CurveId) -> Result<(SurfaceId, Vec<EdgeId>), Mode
     let closed = model.curves.get(&curve).ok_or(ModelError::NoCurve(curve))?.closed;
     let mut bounds = None;
     for (id, shape) in &model.surfaces {
+        // A surface may follow a curve more than once.
+        let mut inside = Vec::new();
         for embedded in shape.embeddings.iter().filter(|e| e.curve == curve) {
             let mesh = &shape.mesh;
             let edges = edges_of(mesh, &embedded.vertices, closed)
                 .ok_or(ModelError::TornOff { curve, surface: *id })?;
-            let inside: Vec<EdgeId> = edges.into_iter().filter(|e| !mesh.is_boundary_edge(*e)).collect();
-            if !inside.is_empty() {
-                return Ok((*id, inside));
-            }
+            inside.extend(edges.into_iter().filter(|e| !mesh.is_boundary_edge(*e)));
             bounds = Some(*id);
+        }
+        if !inside.is_empty() {
+            return Ok((*id, inside));
         }
     }
     Err(bounds.map_or(ModelError::InNoSurface(curve), |surface| ModelError::OnRim { curve, surface }))

@@ -271,15 +271,20 @@ fn add_curve(
     id
 }
 
-/// The first whole run of a curve goes on following it; every other gets a curve of its own, through the points at its vertices.
+/// The first whole run of a curve through its own points goes on following it; every other gets a curve of its own, through the points at its vertices.
 fn follow_apart(model: &mut Model, id: SurfaceId, opening: &Opening) -> Result<Vec<Followed>, ModelError> {
     let mut followed: Vec<Followed> = Vec::new();
     for run in &opening.runs {
-        if run.is_whole() && !followed.iter().any(|other| other.curve == run.curve) {
+        let shape = Arc::clone(model.curves.get(&run.curve).ok_or(ModelError::NoCurve(run.curve))?);
+        // A bank whose control points are copies, if only where it ends at the cut, is another curve.
+        let is_own = run.vertices.iter().zip(&run.samples).all(|(v, sample)| {
+            let control = shape.controls.iter().find(|(place, _)| *place as usize == *sample);
+            control.is_none_or(|(_, point)| opening.mesh.vertex_source(*v) == Some(SourceTag(point.0)))
+        });
+        if is_own && run.is_whole() && !followed.iter().any(|other| other.curve == run.curve) {
             followed.push(Followed { run: run.clone(), curve: run.curve });
             continue;
         }
-        let shape = Arc::clone(model.curves.get(&run.curve).ok_or(ModelError::NoCurve(run.curve))?);
         let like = model.document.curves.get(&run.curve).ok_or(ModelError::NoCurve(run.curve))?.clone();
         let tagged = |v: &VertexId| opening.mesh.vertex_source(*v).map(|tag| PointId(tag.0));
         let points: Vec<(usize, PointId)> = run

@@ -3,7 +3,7 @@
 use crate::error::ModelError;
 use crate::model::Model;
 use crate::operation::delete::forget_lost_curves;
-use crate::operation::refresh_skeleton;
+use crate::operation::{forget_lost, refresh_skeleton};
 use crate::shape::{SurfaceShape, edit};
 use crate::surgery::joining::{Told, United, say, sew, split, unite};
 use ductile_mesh::{Bridge, BridgeError, Mesh, Seam, Sense, VertexId, boundary_loops, propagate_orientation};
@@ -162,6 +162,7 @@ pub(crate) fn lay(
     refresh_skeleton(model, id);
     say(model, id, &told);
     forget_lost_curves(model, &before);
+    forget_lost(model);
     model.document.validate()?;
     Ok(id)
 }
