@@ -9,8 +9,8 @@
 
 use acceptance::Bench;
 use ductile_spec::{
-    CurveId, Document, Edit, Example, ExportFormat, GrabTarget, PointId, Reply, Request, SurfaceId, Through,
-    from_text, to_text,
+    Border, CurveId, Document, Edit, Example, ExportFormat, Extent, GrabTarget, On, PointId, Reply, Request,
+    SurfaceId, Through, from_text, to_text,
 };
 use glam::DVec3;
 
@@ -62,6 +62,9 @@ impl Stream {
         let surface = SurfaceId(u32::try_from(self.below(2)).unwrap() + 1);
         let (at, there) = (self.malice(others), others[self.below(others.len())]);
         let [twice, again] = [there, there].map(Through::Place);
+        if self.below(3) == 0 {
+            return Request::Edit(self.cutting(others, surface, curve));
+        }
         Request::Edit(match self.below(16) {
             0 => Edit::Move { point, to: there },
             1 => Edit::Move { point, to: at },
@@ -83,6 +86,36 @@ impl Stream {
             14 => return Request::Export(ExportFormat::Obj),
             _ => return [Request::Undo, Request::Redo, Request::Describe][self.below(3)].clone(),
         })
+    }
+}
+
+impl Stream {
+    /// An act that takes surfaces apart or puts them together, at a bad place.
+    fn cutting(&mut self, others: &[DVec3], surface: SurfaceId, curve: CurveId) -> Edit {
+        let (at, there) = (self.malice(others), others[self.below(others.len())]);
+        let (here, beyond) = (On { surface, at: there * self.unit() }, On { surface, at });
+        let (skirt, reversed) = (self.below(2) == 0, self.below(2) == 0);
+        let border = if skirt { Border::Curve(curve) } else { Border::Region(here) };
+        match self.below(11) {
+            0 => Edit::SLoop { surface, along: vec![at, there, there * 0.3], closed: skirt },
+            1 => Edit::SLoop { surface, along: vec![here.at, there, -there], closed: skirt },
+            // A small ring, which mostly can be drawn: the acts after it have something to cut along.
+            2 | 3 => {
+                let round = [DVec3::X, DVec3::Y, DVec3::NEG_X, DVec3::NEG_Y].map(|side| here.at + side * 0.3);
+                Edit::SLoop { surface, along: round.to_vec(), closed: true }
+            }
+            4 => Edit::Burnout { region: if skirt { here } else { beyond } },
+            5 => Edit::Split { border },
+            6 => Edit::Crease { border },
+            7 => Edit::Smooth { curve },
+            8 => Edit::Glue { from: here, to: beyond, skirt, reversed },
+            9 => {
+                let radius = [0.2, 0.0, f64::NAN, 1e9, 1e-12][self.below(5)];
+                Edit::Merge { from: here, to: beyond, radius, keep: skirt }
+            }
+            _ if reversed => Edit::Reverse { surface },
+            _ => Edit::Expand { curve, to: Extent::Radius([0.5, f64::INFINITY, 1e-12, 1e5][self.below(4)]) },
+        }
     }
 }
 

@@ -68,3 +68,69 @@ pub fn ridged_saddle() -> Document {
     document.surfaces.insert(SurfaceId(1), Surface::new(Skeleton { vertices, triangles, curves }));
     document
 }
+
+/// A Möbius strip on a curve along its core, which halves its five quadrilaterals.
+#[must_use]
+pub fn moebius() -> Document {
+    let mut document = Document::default();
+    let (mut vertices, mut edges) = (Vec::new(), Vec::new());
+    for k in 0..5_u32 {
+        let (sin, cos) = libm::sincos(f64::from(k) * std::f64::consts::TAU / 5.0);
+        let (lift, lean) = libm::sincos(f64::from(k) * std::f64::consts::PI / 5.0);
+        document.points.insert(PointId(k + 1), dvec3(2.0 * cos, 2.0 * sin, 0.0));
+        vertices.push(SkeletonVertex::Control(PointId(k + 1)));
+        edges.extend([0.6, -0.6].map(|side| {
+            let r = 2.0 + side * lean;
+            SkeletonVertex::Free(dvec3(r * cos, r * sin, side * lift))
+        }));
+    }
+    vertices.extend(edges);
+    let mut triangles = Vec::new();
+    for k in 0..5 {
+        let next = (k + 1) % 5;
+        for side in [0, 1] {
+            // After one turn the one edge goes on as the other.
+            let there = if k == 4 { 1 - side } else { side };
+            let (here, beyond) = (5 + 2 * k + side, 5 + 2 * next + there);
+            triangles.extend([[k, next, here], [next, beyond, here]]);
+        }
+    }
+    document.curves.insert(CurveId(1), Curve::new((1..=5).map(PointId).collect(), true));
+    let curves = vec![Embedding { curve: CurveId(1), along: (0..5).collect() }];
+    document.surfaces.insert(SurfaceId(1), Surface::new(Skeleton { vertices, triangles, curves }));
+    document
+}
+
+/// Two unit discs, one over the other.
+#[must_use]
+pub fn two_discs() -> Document {
+    let mut document = Document::default();
+    for disc in 0..2_u32 {
+        let ids: Vec<PointId> = (1..=4).map(|k| PointId(4 * disc + k)).collect();
+        for (id, [x, y]) in ids.iter().zip([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]]) {
+            document.points.insert(*id, dvec3(x, y, 1.2 * f64::from(disc)));
+        }
+        let vertices = ids.iter().map(|id| SkeletonVertex::Control(*id)).collect();
+        document.curves.insert(CurveId(disc + 1), Curve::new(ids, true));
+        let curves = vec![Embedding { curve: CurveId(disc + 1), along: vec![0, 1, 2, 3] }];
+        let skeleton = Skeleton { vertices, triangles: vec![[0, 1, 2], [0, 2, 3]], curves };
+        document.surfaces.insert(SurfaceId(disc + 1), Surface::new(skeleton));
+    }
+    document
+}
+
+/// Shapes of every kind, coarse, so that many acts can be tried on them.
+#[must_use]
+pub fn for_surgery() -> Vec<Document> {
+    use ductile_spec::Example;
+    let example = ductile_modeler::example;
+    let all = [
+        (example(Example::Disc), 0.25),
+        (example(Example::Cylinder), 0.3),
+        (example(Example::Ball), 0.35),
+        (moebius(), 0.4),
+        (torus(), 0.45),
+        (two_discs(), 0.3),
+    ];
+    all.into_iter().map(|(document, spacing)| Document { spacing: Some(spacing), ..document }).collect()
+}
