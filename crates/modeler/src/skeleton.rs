@@ -7,7 +7,7 @@
 use crate::model::{Model, round_to_digits};
 use crate::shape::SurfaceShape;
 
-use ductile_mesh::{Dehydrated, VertexId, dehydrate};
+use ductile_mesh::{Dehydrated, Mesh, VertexId, dehydrate};
 use ductile_spec::{CurveId, Embedding, PointId, Skeleton, SkeletonVertex};
 use glam::DVec3;
 
@@ -46,8 +46,16 @@ pub(crate) fn sweep_skeleton(
     let shift = if closed { centre(&low) - centre(&high) } else { DVec3::ZERO };
     let best = |reversed: bool| {
         let starts = if closed { high.len() } else { 1 };
-        let all = (0..starts).map(|start| zip((&low, &high), closed, shift, (start, reversed)));
-        all.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_default()
+        let all = |pace: Pace| {
+            let all = (0..starts).map(move |start| (start, pace));
+            let zipped =
+                all.map(|(start, pace)| zip((&low, &high), (closed, pace), shift, (start, reversed)));
+            // Where one line has most of its points at one end of the other, the shortest edges may join a pair twice.
+            let count = low.len() + high.len();
+            let sound = zipped.filter(|(_, triangles)| Mesh::from_triangles(count, triangles).is_ok());
+            sound.min_by(|a, b| a.0.total_cmp(&b.0))
+        };
+        all(Pace::Shortest).or_else(|| all(Pace::Even)).unwrap_or_default()
     };
     let (plain, turned) = (best(false), best(true));
     let is_plain = (plain.0 <= turned.0) != other_way;
@@ -165,12 +173,21 @@ fn zigzag(n: usize) -> Vec<[u32; 3]> {
     triangles
 }
 
-/// Zips two lines of points together, always along the shorter of the two possible edges; the second begins at `start` (if
+/// Which of two lines goes on next when they are zipped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Pace {
+    /// The one whose next point is nearer to where the other is.
+    Shortest,
+    /// The one that is behind, in parts of its own number of points. Loops are never joined twice then.
+    Even,
+}
+
+/// Zips two lines of points together, in general along the shorter of the two possible edges; the second begins at `start` (if
 /// they are loops) and may be run through backwards. Lengths are measured after moving loops' centres together, so that a
 /// leaning cylinder is not twisted.
 fn zip(
     (low, high): (&[DVec3], &[DVec3]),
-    closed: bool,
+    (closed, pace): (bool, Pace),
     shift: DVec3,
     (start, reversed): (usize, bool),
 ) -> (f64, Vec<[u32; 3]>) {
@@ -189,7 +206,12 @@ fn zip(
     let mut cost = length(0, 0);
     let mut triangles = Vec::with_capacity(n + m);
     while a < most_low || b < most_high {
-        let step_low = b >= most_high || (a < most_low && length(a + 1, b) <= length(a, b + 1));
+        // Asked only while both can go on: beyond the ends of open lines there is nothing to measure.
+        let is_lows_turn = || match pace {
+            Pace::Shortest => length(a + 1, b) <= length(a, b + 1),
+            Pace::Even => (2 * a + 1) * most_high <= (2 * b + 1) * most_low,
+        };
+        let step_low = b >= most_high || (a < most_low && is_lows_turn());
         if step_low {
             triangles.push([name(a), name(a + 1), other(b)]);
             a += 1;
@@ -205,7 +227,7 @@ fn zip(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ductile_mesh::{Mesh, summary};
+    use ductile_mesh::summary;
     use glam::dvec3;
     #[cfg(target_arch = "wasm32")]
     use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -252,6 +274,38 @@ mod tests {
                 );
                 let summary = summary(&Mesh::from_triangles(n + m, &sweep.triangles).unwrap());
                 assert_eq!((summary.euler, summary.boundaries), (0, 2), "{n} to {m}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_sweep_between_open_lines_is_a_strip_either_way() {
+        for (n, m) in [(2, 2), (2, 5), (6, 3), (4, 4)] {
+            for other_way in [false, true] {
+                let (low, high) = (polygon(n, 0.0), polygon(m, 1.0));
+                let sweep = sweep_skeleton((CurveId(1), &low), (CurveId(2), &high), false, other_way);
+                let summary = summary(&Mesh::from_triangles(n + m, &sweep.triangles).unwrap());
+                assert_eq!((summary.euler, summary.boundaries), (1, 1), "{n} {m} {other_way}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_sweep_between_unlike_loops_joins_no_pair_twice() {
+        // A small triangle beside one end of a long lobed loop: its nearest point is the same for most of the lobe.
+        for (offset, stretch) in [(0.0, 1.0), (1.2, 1.0), (3.0, 2.0), (8.0, 3.0), (-5.0, 0.2)] {
+            let low: Vec<_> =
+                polygon(3, 0.4).iter().map(|(id, at)| (*id, *at * 0.4 + DVec3::X * offset)).collect();
+            let lobe = |k: usize| if k % 2 == 0 { 1.65 } else { 1.2 };
+            let high: Vec<_> = polygon(6, 0.0)
+                .iter()
+                .enumerate()
+                .map(|(k, (id, at))| (*id, dvec3(at.x * lobe(k) * stretch, at.y * lobe(k), 0.0)))
+                .collect();
+            for other_way in [false, true] {
+                let sweep = sweep_skeleton((CurveId(1), &low), (CurveId(2), &high), true, other_way);
+                let summary = summary(&Mesh::from_triangles(9, &sweep.triangles).unwrap());
+                assert_eq!((summary.euler, summary.boundaries), (0, 2), "{offset} {stretch}");
             }
         }
     }
