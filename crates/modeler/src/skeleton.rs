@@ -296,7 +296,7 @@ mod tests {
         for (offset, stretch) in [(0.0, 1.0), (1.2, 1.0), (3.0, 2.0), (8.0, 3.0), (-5.0, 0.2)] {
             let low: Vec<_> =
                 polygon(3, 0.4).iter().map(|(id, at)| (*id, *at * 0.4 + DVec3::X * offset)).collect();
-            let lobe = |k: usize| if k % 2 == 0 { 1.65 } else { 1.2 };
+            let lobe = |k: usize| if k.is_multiple_of(2) { 1.65 } else { 1.2 };
             let high: Vec<_> = polygon(6, 0.0)
                 .iter()
                 .enumerate()
