@@ -195,6 +195,7 @@ test("every example opens and rests", async () => {
     disc: [1, 1], saddle: [1, 1], cylinder: [0, 2], ball: [2, 0], "raised-disc": [1, 1],
     torus: [0, 0], "party-hat": [-2, 4], "capped-cylinder": [2, 0], "glued-cylinders": [0, 2],
     handle: [-2, 0], "klein-mug": [0, 0], "three-handles": [-4, 0],
+    "moebius-strip": [0, 1], spout: [1, 1],
   };
   await withPage({ viewport: wide }, async (page) => {
     let before = await atRest(page);

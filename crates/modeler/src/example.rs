@@ -23,6 +23,8 @@ pub fn example(example: Example) -> Document {
         Example::Handle => built(include_str!("example/handle.ductile.json")),
         Example::KleinMug => built(include_str!("example/klein-mug.ductile.json")),
         Example::ThreeHandles => built(include_str!("example/three-handles.ductile.json")),
+        Example::MoebiusStrip => built(include_str!("example/moebius-strip.ductile.json")),
+        Example::Spout => built(include_str!("example/spout.ductile.json")),
     };
     example.title().clone_into(&mut document.name);
     document

@@ -30,6 +30,10 @@ pub enum Example {
     KleinMug,
     /// A surface of genus 3: one ball, merged with itself three times.
     ThreeHandles,
+    /// A surface with one side and one edge.
+    MoebiusStrip,
+    /// A ball and a cylinder, trimmed against each other and joined (thesis figures 3.4 and 3.5).
+    Spout,
 }
 
 impl Example {
@@ -37,7 +41,7 @@ impl Example {
     pub const PLAIN: [Self; 5] = [Self::Disc, Self::RaisedDisc, Self::Saddle, Self::Cylinder, Self::Ball];
 
     /// The constructions of the thesis, which a script of acts builds.
-    pub const BUILT: [Self; 7] = [
+    pub const BUILT: [Self; 9] = [
         Self::Torus,
         Self::PartyHat,
         Self::CappedCylinder,
@@ -45,6 +49,8 @@ impl Example {
         Self::Handle,
         Self::KleinMug,
         Self::ThreeHandles,
+        Self::MoebiusStrip,
+        Self::Spout,
     ];
 
     /// All examples, in the order of the menu.
@@ -68,6 +74,8 @@ impl Example {
             Self::Handle => "Torus with a handle",
             Self::KleinMug => "Klein mug",
             Self::ThreeHandles => "Three handles",
+            Self::MoebiusStrip => "Möbius strip",
+            Self::Spout => "Ball with a spout",
         }
     }
 
@@ -87,6 +95,8 @@ impl Example {
             Self::Handle => "handle",
             Self::KleinMug => "klein-mug",
             Self::ThreeHandles => "three-handles",
+            Self::MoebiusStrip => "moebius-strip",
+            Self::Spout => "spout",
         }
     }
 }
