@@ -208,7 +208,8 @@ test("every example opens and rests", async () => {
       const after = await atRest(page, (state) => state.openings === openings + 1);
       const [{ summary }] = after.surfaces;
       assert.deepEqual([summary.euler, summary.boundaries], topologies[name], name);
-      assert.ok(after.figures.energy > -1e-6 && after.figures.energy < 240, `${name} has energy ${after.figures.energy}`);
+      const most = { handle: 195, "klein-mug": 150, "three-handles": 240, torus: 90, "party-hat": 75 }[name] ?? 60;
+      assert.ok(after.figures.energy > -1e-6 && after.figures.energy < most, `${name} has energy ${after.figures.energy}`);
       before = after;
     }
   });

@@ -7,8 +7,7 @@ use crate::model::Model;
 use crate::operation::{kept_position, refresh_skeleton};
 use crate::shape::{CurveShape, EmbeddedCurve, SurfaceShape, edit};
 use crate::surgery::joining::{said, say};
-use crate::surgery::pieces::tag;
-use crate::surgery::tracing::{Stop, Trace, trace};
+use crate::surgery::tracing::{Laid, Stop, Trace, trace};
 use ductile_mesh::{SourceTag, VertexId};
 use ductile_spec::{Curve, CurveId, PointId, SurfaceId};
 use glam::DVec3;
@@ -68,33 +67,10 @@ fn lay(model: &mut Model, surface: SurfaceId, trace: &Trace, closed: bool) -> Re
     }
     let places: Vec<DVec3> = points.iter().map(|point| model.point(*point)).collect::<Result<_, _>>()?;
     let shape = edit(model.surfaces.get_mut(&surface).ok_or(ModelError::NoSurface(surface))?);
-    let path = shape
-        .mesh
-        .lay_path(&trace.places, closed, &shape.positions)
-        .map_err(|why| ModelError::NoWay { surface, why })?;
-    if path.edges.iter().any(|e| shape.mesh.is_source_edge(*e) || shape.mesh.is_boundary_edge(*e)) {
-        return Err(ModelError::AlongCurve(surface));
-    }
-    let slots = shape.mesh.vertex_slots();
-    shape.positions.resize(slots, DVec3::ZERO);
-    if !shape.wanted.is_empty() {
-        shape.wanted.resize(slots, shape.spacing);
-    }
-    for (v, at) in &path.made {
+    let Laid { mut line, controls } = trace.lay(shape, surface, (id, closed), &points)?;
+    for (v, at) in controls.iter().zip(&places) {
         shape.positions[v.index()] = *at;
     }
-    let mut line = path.vertices.clone();
-    let controls: Vec<VertexId> =
-        trace.of_stops.iter().map(|place| path.vertices[path.places[*place]]).collect();
-    for ((v, point), at) in controls.iter().zip(&points).zip(&places) {
-        if shape.mesh.vertex_source(*v).is_some_and(|tag| tag.0 != point.0) {
-            return Err(ModelError::Occupied);
-        }
-        shape.mesh.set_vertex_source(*v, Some(SourceTag(point.0)));
-        shape.positions[v.index()] = *at;
-        shape.pins.retain(|pin| pin.vertex != *v);
-    }
-    tag(&mut shape.mesh, &line, closed, id);
     thin(shape, &mut line, closed);
     fill(shape, &mut line, closed, id);
     let nodes = line.iter().map(|v| shape.positions[v.index()]).collect();

@@ -7,9 +7,8 @@ use crate::error::ModelError;
 use crate::model::Model;
 use crate::shadow;
 use crate::shape::{EmbeddedCurve, SurfaceShape, edit};
-use crate::surgery::pieces::tag;
-use crate::surgery::tracing::{Stop, trace};
-use ductile_mesh::{SourceTag, VertexId};
+use crate::surgery::tracing::{Laid, Stop, trace};
+use ductile_mesh::VertexId;
 use ductile_spec::{CurveId, PointId, SurfaceId};
 use glam::DVec3;
 
@@ -24,30 +23,8 @@ pub(crate) fn follow(model: &mut Model, surface: SurfaceId, id: CurveId) -> Resu
         return Err(ModelError::CrossesCurve { curve: id, surface });
     }
     let shape = edit(model.surfaces.get_mut(&surface).ok_or(ModelError::NoSurface(surface))?);
-    let path = shape
-        .mesh
-        .lay_path(&trace.places, closed, &shape.positions)
-        .map_err(|why| ModelError::NoWay { surface, why })?;
-    if path.edges.iter().any(|e| shape.mesh.is_source_edge(*e) || shape.mesh.is_boundary_edge(*e)) {
-        return Err(ModelError::AlongCurve(surface));
-    }
-    resize(shape);
-    for (v, at) in &path.made {
-        shape.positions[v.index()] = *at;
-    }
-    let controls: Vec<VertexId> =
-        trace.of_stops.iter().map(|place| path.vertices[path.places[*place]]).collect();
-    for (v, point) in controls.iter().zip(&through) {
-        let tag = SourceTag(point.0);
-        if shape.mesh.vertex_source(*v).is_some_and(|other| other != tag) {
-            return Err(ModelError::Occupied);
-        }
-        shape.mesh.set_vertex_source(*v, Some(tag));
-        shape.pins.retain(|pin| pin.vertex != *v);
-    }
-    tag(&mut shape.mesh, &path.vertices, closed, id);
-    let stretches =
-        stretches(&path.vertices, &controls, closed).ok_or(ModelError::TwiceThrough(through[0]))?;
+    let Laid { line: laid, controls } = trace.lay(shape, surface, (id, closed), &through)?;
+    let stretches = stretches(&laid, &controls, closed).ok_or(ModelError::TwiceThrough(through[0]))?;
     let mut line: Vec<VertexId> = Vec::new();
     // From the last to the first, so that samples that are inserted do not shift those still to come.
     for (rank, stretch) in stretches.into_iter().enumerate().rev() {

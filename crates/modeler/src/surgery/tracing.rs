@@ -9,6 +9,7 @@ use crate::model::Model;
 use crate::operation::{insert, kept_position};
 use crate::rehydrate::build_curve;
 use crate::shape::SurfaceShape;
+use crate::surgery::pieces::tag;
 use ductile_mesh::{Mesh, Path, PathError, Place, SourceTag, VertexId, nearest_place};
 use ductile_spec::{Curve, CurveId, Document, PointId, SurfaceId};
 use glam::DVec3;
@@ -38,6 +39,53 @@ pub(crate) struct Trace {
     pub(crate) places: Vec<Place>,
     /// Which of the places are the stops.
     pub(crate) of_stops: Vec<usize>,
+}
+
+/// A way that was laid.
+pub(crate) struct Laid {
+    /// Its vertices, in order.
+    pub(crate) line: Vec<VertexId>,
+    /// Those at its stops.
+    pub(crate) controls: Vec<VertexId>,
+}
+
+impl Trace {
+    /// Lays the way into a surface as a line of a curve, whose points its stops are. Nothing that was there moves.
+    pub(crate) fn lay(
+        &self,
+        shape: &mut SurfaceShape,
+        surface: SurfaceId,
+        (curve, closed): (CurveId, bool),
+        points: &[PointId],
+    ) -> Result<Laid, ModelError> {
+        let path = shape
+            .mesh
+            .lay_path(&self.places, closed, &shape.positions)
+            .map_err(|why| ModelError::NoWay { surface, why })?;
+        if path.edges.iter().any(|e| shape.mesh.is_source_edge(*e) || shape.mesh.is_boundary_edge(*e)) {
+            return Err(ModelError::AlongCurve(surface));
+        }
+        let slots = shape.mesh.vertex_slots();
+        shape.positions.resize(slots, DVec3::ZERO);
+        if !shape.wanted.is_empty() {
+            shape.wanted.resize(slots, shape.spacing);
+        }
+        for (v, at) in &path.made {
+            shape.positions[v.index()] = *at;
+        }
+        let controls: Vec<VertexId> =
+            self.of_stops.iter().map(|place| path.vertices[path.places[*place]]).collect();
+        for (v, point) in controls.iter().zip(points) {
+            let tag = SourceTag(point.0);
+            if shape.mesh.vertex_source(*v).is_some_and(|other| other != tag) {
+                return Err(ModelError::Occupied);
+            }
+            shape.mesh.set_vertex_source(*v, Some(tag));
+            shape.pins.retain(|pin| pin.vertex != *v);
+        }
+        tag(&mut shape.mesh, &path.vertices, closed, curve);
+        Ok(Laid { line: path.vertices, controls })
+    }
 }
 
 /// Finds a way over a surface. The surface may have got other vertices by it, and its curves control points.
