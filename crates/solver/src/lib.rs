@@ -49,6 +49,7 @@ mod report;
 mod rings;
 mod smooth;
 mod surface;
+mod symmetric;
 pub mod workload;
 
 pub use curve::{
@@ -65,3 +66,4 @@ pub use report::StepReport;
 pub use rings::{MAX_RING, RingError, Rings};
 pub use smooth::{Aim, EdgePlaces, SmoothReport, place_on_edge, smooth};
 pub use surface::{Frozen, NodeFigures, SurfaceSolver};
+pub use symmetric::SymmetricFactor;

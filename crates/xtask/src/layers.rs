@@ -16,8 +16,9 @@ const MEMBERS: &[(&str, &[&str])] = &[
     ("ductile-modeler", &["ductile-spec", "ductile-mesh", "ductile-solver", "ductile-patch"]),
     ("ductile-worker", &["ductile-spec", "ductile-modeler"]),
     ("ductile-viewer", &["ductile-spec"]),
-    // `verify` compares the solver itself with recorded figures, below the modeler.
-    ("ductile-cli", &["ductile-spec", "ductile-modeler", "ductile-solver"]),
+    // `verify` compares the solver and the patches themselves with recorded figures, below the modeler; `fill`, `cage` and
+    // `displace` turn files into files without a document between them.
+    ("ductile-cli", &["ductile-spec", "ductile-modeler", "ductile-patch", "ductile-solver", "ductile-mesh"]),
     ("xtask", &[]),
 ];
 

@@ -1,0 +1,13 @@
+//! Exact shapes beside the fair ones: S-patches that fill n-sided holes, surfaces blended over cages, displacements
+//! that move the interior of any surface.
+//!
+//! Sources: P. Salvi, *G1 hole filling with S-patches made easy* (2020); P. Salvi, *Polyhedral design with blended
+//! n-sided interpolants*; P. Salvi, *Editing the interior of arbitrary surfaces using C∞ displacement blends*. Each
+//! module says where it departs from them and why.
+//!
+//! Everything is pure arithmetic over flat arrays: no clock, no threads, no hash maps, `libm` for what is not
+//! arithmetic, no fused multiply-add. The same input gives the same bits on every target.
+
+mod bernstein;
+
+pub use bernstein::{basis, basis_derivative, binomial};
