@@ -9,5 +9,7 @@
 //! arithmetic, no fused multiply-add. The same input gives the same bits on every target.
 
 mod bernstein;
+mod displacement;
 
 pub use bernstein::{basis, basis_derivative, binomial};
+pub use displacement::{Blend, BlendError, BlendFunction, Erbs, Range};
