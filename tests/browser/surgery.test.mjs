@@ -2,19 +2,10 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { atRest, distance, documentOf, drawn, wide } from "./support/model.mjs";
-import { inspect, until, untilInspect, withPage } from "./support/page.mjs";
+import { atRest, distance, documentOf, drawn, topology, withDocument } from "./support/model.mjs";
+import { inspect, until, untilInspect } from "./support/page.mjs";
 import { at, pixels } from "./support/pixels.mjs";
 import { ringedDisc, twoDiscs, twoRings } from "./support/rings.mjs";
-
-/** Opens a document from an address. */
-function withDocument(document, body) {
-  const extra = { "/spec.json": { type: "application/json", body: JSON.stringify(document) } };
-  return withPage({ viewport: wide, extra, query: "?spec=spec.json" }, async (page) => {
-    const opened = await atRest(page, ({ name }) => name === document.name);
-    await body(page, opened);
-  });
-}
 
 /** A place on a curve clear of panels and toasts: the sample farthest to the left. */
 function onCurve(state, id) {
@@ -46,11 +37,6 @@ async function refused(page, place, reason) {
   await page.mouse.click(...place);
   const state = await untilInspect(page, ({ toast }) => toast !== null && reason.test(toast));
   assert.equal(state.document, document, "the model is as it was");
-}
-
-/** Waits until the status line says this of the topology. */
-function topology(page, text) {
-  return until(page, (text) => document.getElementById("figure-topology").textContent === text, text, { timeout: 5000 });
 }
 
 const brightness = (colour) => colour.reduce((sum, channel) => sum + channel, 0);

@@ -1,7 +1,7 @@
 // What tests ask of the model and its picture again and again.
 
 import assert from "node:assert/strict";
-import { inspect, untilInspect } from "./page.mjs";
+import { inspect, until, untilInspect, withPage } from "./page.mjs";
 import { pixels } from "./pixels.mjs";
 import { drag } from "./pointer.mjs";
 
@@ -12,6 +12,20 @@ export const wide = { width: 900, height: 560 };
 export function atRest(page, predicate = () => true, { timeout = 90_000 } = {}) {
   const rests = (state) => state?.document != null && state.settled && !state.camera.flying && predicate(state);
   return untilInspect(page, rests, { timeout });
+}
+
+/** Opens a document from an address; the body gets the page and its state at rest. */
+export function withDocument(document, body) {
+  const extra = { "/spec.json": { type: "application/json", body: JSON.stringify(document) } };
+  return withPage({ viewport: wide, extra, query: "?spec=spec.json" }, async (page) => {
+    const opened = await atRest(page, ({ name }) => name === document.name);
+    await body(page, opened);
+  });
+}
+
+/** Waits until the status line says this of the topology. */
+export function topology(page, text) {
+  return until(page, (text) => document.getElementById("figure-topology").textContent === text, text, { timeout: 5000 });
 }
 
 /** A control point of a state by its identity. */

@@ -57,3 +57,20 @@ export const twoDiscs = {
     ]),
   ),
 };
+
+/** A flat disc, surface 1 with its rim curve 1, and a dome through it that a point in its middle holds up: surface 2, rim curve 2. */
+export const domeThroughDisc = {
+  ...twoRings,
+  name: "Dome through a disc",
+  points: { ...circle(1, 1.2, 0.25), ...circle(5, 0.8), 9: [0, 0, 0.6] },
+  surfaces: {
+    1: twoDiscs.surfaces[1],
+    2: {
+      skeleton: {
+        vertices: [5, 6, 7, 8, 9],
+        triangles: [0, 1, 2, 3].map((i) => [i, (i + 1) % 4, 4]),
+        curves: [{ curve: 2, along: [0, 1, 2, 3] }],
+      },
+    },
+  },
+};

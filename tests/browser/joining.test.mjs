@@ -1,0 +1,163 @@
+// The tools that join two surfaces, by real pointer events: what they show between the two clicks, what they make, undo.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import {
+  atRest,
+  distance,
+  documentOf,
+  drawn,
+  newPoints,
+  picture,
+  point,
+  topology,
+  withDocument,
+} from "./support/model.mjs";
+import { until, untilInspect } from "./support/page.mjs";
+import { domeThroughDisc, twoDiscs } from "./support/rings.mjs";
+
+/** Euler characteristic and boundaries of every surface, in order. */
+const kinds = ({ surfaces }) => surfaces.map(({ summary }) => [summary.euler, summary.boundaries]);
+
+/** Moves the pointer, and waits until the page marks what is asked for: what is marked is what a click would take. */
+async function hover(page, place, marked) {
+  await page.mouse.move(...place);
+  return untilInspect(page, marked, { timeout: 10_000 });
+}
+
+/** Takes the last act back and fails unless that gives the document of before to the letter. */
+async function takeBack(page, act, before) {
+  await page.keyboard.press("Control+z");
+  const back = await atRest(page, (state) => state.act === `Undo ${act}`);
+  assert.equal(back.document, before.document);
+  assert.deepEqual(kinds(back), kinds(before));
+  return back;
+}
+
+/** A place on a curve clear of its control points and of panels: of its samples the one nearest to a corner of the picture. */
+function onRim(state, id, [x, y]) {
+  const { screen } = state.curves.find((curve) => curve.id === id);
+  const clear = (place) => state.points.every((entry) => distance(entry.screen, place) > 14);
+  return screen.filter(clear).reduce((a, b) => (distance(a, [x, y]) < distance(b, [x, y]) ? a : b));
+}
+
+/** The middle of some control points of the model, as a picture shows it. */
+function between(state, ...ids) {
+  const places = ids.map((id) => point(state, id).screen);
+  return [0, 1].map((axis) => places.reduce((sum, place) => sum + place[axis], 0) / places.length);
+}
+
+const left = [0, 280];
+
+test("two rims are marked, tied and glued: with a band two discs are a ball, without one too", async () => {
+  await withDocument(twoDiscs, async (page, before) => {
+    const [low, high] = [1, 2].map((id) => onRim(before, id, left));
+    await page.keyboard.press("g");
+    await hover(page, low, ({ marked }) => marked.rims === 1 && marked.lines === 0);
+    await page.mouse.click(...low);
+    await untilInspect(page, ({ underWay }) => underWay);
+    await drawn(page);
+    const untied = await picture(page);
+    await hover(page, high, ({ marked }) => marked.rims === 2 && marked.lines === 24);
+    await drawn(page);
+    assert.notDeepEqual((await picture(page)).data, untied.data, "the ties are in the picture");
+    await page.mouse.click(...high);
+    const glued = await atRest(page, ({ act }) => act === "Glue");
+    assert.deepEqual(kinds(glued), [[2, 0]]);
+    await topology(page, "χ 2 · genus 0 · closed · orientable");
+    assert.deepEqual(glued.curves.map(({ role }) => role), ["Inner", "Inner"], "both rims run on inside");
+    assert.equal(glued.underWay, false);
+    const back = await takeBack(page, "Glue", before);
+
+    await page.keyboard.press("s");
+    await until(page, () => document.getElementById("option-skirt").ariaPressed === "false");
+    await page.mouse.click(...onRim(back, 1, left));
+    await untilInspect(page, ({ underWay }) => underWay);
+    await page.mouse.click(...onRim(back, 2, left));
+    const laid = await atRest(page, ({ act }) => act === "Glue");
+    assert.deepEqual(kinds(laid), [[2, 0]]);
+    assert.deepEqual(laid.curves.map(({ id, role }) => [id, role]), [[1, "Inner"]], "the second rim lies on the first");
+    assert.equal(laid.points.length, before.points.length - 4);
+    await takeBack(page, "Glue", before);
+  });
+});
+
+test("a tube is shown before it is made, the wheel sets its radius, and its rims have it", async () => {
+  await withDocument(twoDiscs, async (page, before) => {
+    const high = between(before, 5, 6, 7, 8);
+    const low = between(before, 1, 2, 3, 4);
+    await page.keyboard.press("m");
+    await hover(page, high, ({ hover, marked }) => hover === "surface 2" && marked.lines === 0);
+    await page.mouse.click(...high);
+    await untilInspect(page, ({ underWay }) => underWay);
+    await hover(page, low, ({ hover, marked }) => hover === "surface 1" && marked.lines === 14);
+    await drawn(page);
+    const narrow = await picture(page);
+    const radius = () => page.locator("#tube-radius").inputValue().then(Number);
+    const suited = await radius();
+    assert.ok(suited > 0.05 && suited < 0.3, `${suited} suits a disc of 0.8`);
+    await page.mouse.wheel(0, -240);
+    await until(page, (was) => Number(document.getElementById("tube-radius").value) > was, suited);
+    const wanted = await radius();
+    const wheeled = await hover(page, low, ({ marked }) => marked.lines === 14);
+    assert.deepEqual(wheeled.camera, before.camera, "the wheel does not zoom meanwhile");
+    await drawn(page);
+    assert.notDeepEqual((await picture(page)).data, narrow.data, "a wider tube is shown");
+    assert.equal(wheeled.document, before.document, "nothing was done yet");
+
+    await page.mouse.click(...low);
+    const merged = await atRest(page, ({ act }) => act === "Merge");
+    assert.deepEqual(kinds(merged), [[0, 2]]);
+    await topology(page, "χ 0 · genus 0 · 2 boundaries · orientable");
+    // The rims of the holes are control curves with the radius of the preview, on the surface that each was made in.
+    const rims = (await documentOf(page)).curves;
+    const made = Object.entries(rims).filter(([id]) => !before.curves.some((curve) => curve.id === Number(id)));
+    assert.equal(made.length, 2);
+    assert.equal(newPoints(merged, before).length, made[0][1].through.length + made[1][1].through.length);
+    for (const [, { through, closed }] of made) {
+      assert.ok(closed);
+      const places = through.map((id) => point(merged, id).at);
+      const centre = [0, 1, 2].map((axis) => places.reduce((sum, at) => sum + at[axis], 0) / places.length);
+      for (const at of places) {
+        const off = distance(at, centre) / wanted - 1;
+        assert.ok(Math.abs(off) < 0.02, `a rim of ${distance(at, centre)}, asked for ${wanted}`);
+      }
+    }
+    await takeBack(page, "Merge", before);
+  });
+});
+
+test("two surfaces that cross are trimmed at the parts that were clicked, in a crease or smoothly", async () => {
+  await withDocument(domeThroughDisc, async (page, before) => {
+    assert.deepEqual(kinds(before), [[1, 1], [1, 1]]);
+    // The top of the dome, and the border of the disc outside it.
+    const top = point(before, 9).screen.map((value, axis) => value + [0, 6][axis]);
+    const rim = onRim(before, 1, left);
+    const middle = between(before, 1, 2, 3, 4);
+    const border = [0, 1].map((axis) => rim[axis] + 0.15 * (middle[axis] - rim[axis]));
+    for (const smooth of ["false", "true"]) {
+      await page.keyboard.press("t");
+      if (smooth === "true") await page.keyboard.press("s");
+      await until(page, (on) => document.getElementById("option-smooth").ariaPressed === on, smooth);
+      await hover(page, top, ({ hover, marked }) => hover === "surface 2" && marked.tinted === 1);
+      await page.mouse.click(...top);
+      await untilInspect(page, ({ underWay }) => underWay);
+      await hover(page, border, ({ hover, marked }) => hover === "surface 1" && marked.tinted === 2);
+      await page.mouse.click(...border);
+      const trimmed = await atRest(page, ({ act }) => act === "Trim");
+      if (smooth === "true") {
+        assert.deepEqual(kinds(trimmed), [[1, 1]]);
+        await topology(page, "χ 1 · genus 0 · 1 boundary · orientable");
+      } else {
+        assert.deepEqual(kinds(trimmed), [[0, 2], [1, 1]]);
+      }
+      assert.equal(trimmed.curves.length, 2, "the rim of the dome went with its skirt; the seam is a control curve");
+      const seam = trimmed.curves.find(({ id }) => !before.curves.some((curve) => curve.id === id));
+      assert.ok(seam?.closed);
+      for (const { at } of newPoints(trimmed, before)) {
+        assert.ok(Math.abs(at[2] - 0.25) < 0.01, `the seam lies in the disc: ${at}`);
+      }
+      await takeBack(page, "Trim", before);
+    }
+  });
+});
