@@ -9,6 +9,7 @@
 //! arithmetic, no fused multiply-add. The same input gives the same bits on every target.
 
 mod bernstein;
+pub mod cage;
 mod displacement;
 
 pub use bernstein::{basis, basis_derivative, binomial};
