@@ -4,12 +4,14 @@
 //! is never passed over in silence: it is told, and then the file is not verified. To add a format, write its `check` and
 //! give it a line in [`FORMATS`].
 
+mod cage;
 mod disc;
 mod energy;
 mod family;
 mod gradient;
 mod json;
 mod mesh;
+mod param_map;
 mod reader;
 mod report;
 mod rest;
@@ -36,6 +38,8 @@ type Check = fn(&Fields<'_>, &mut Report) -> Result<(), Flaw>;
 const FORMATS: &[(&str, &[&str], Check)] = &[
     ("energies of meshes", &["meshes"], energy::check),
     ("gradient", &["vertices", "triangles", "gradient"], gradient::check),
+    ("cage surfaces", &["cases[].cage"], cage::check),
+    ("parameter maps", &["maps"], param_map::check),
     ("raised disc", &["vertices", "triangles", "heights_at_radii", "cases"], disc::check),
 ];
 

@@ -134,8 +134,17 @@ impl<'a> Item<'a> {
 }
 
 impl<'a> Fields<'a> {
+    /// Whether there is such a field; `list[].name` asks for one in any object of a list.
     pub(crate) fn has(&self, name: &str) -> bool {
-        self.fields.iter().any(|(known, _)| known == name)
+        let Some((list, inner)) = name.split_once("[].") else {
+            return self.fields.iter().any(|(known, _)| known == name);
+        };
+        self.fields.iter().filter(|(known, _)| known == list).any(|(_, json)| match json {
+            Json::List(items) => items.iter().any(
+                |item| matches!(item, Json::Fields(fields) if fields.iter().any(|(known, _)| known == inner)),
+            ),
+            _ => false,
+        })
     }
 
     pub(crate) fn names(&self) -> impl Iterator<Item = &'a str> {
