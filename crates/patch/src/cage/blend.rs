@@ -62,7 +62,10 @@ impl Blender {
 /// Equation (8). Its derivative has one term, since the sum telescopes.
 fn hermite(k: usize, t: f64) -> [f64; 3] {
     let degree = 2 * k + 1;
-    let value = basis(degree, t)[..=k].iter().sum();
+    // The smaller half of the sum: the other one would carry the rounding of many terms next to 1.
+    let basis_at = basis(degree, t);
+    let value =
+        if t > 0.5 { basis_at[..=k].iter().sum() } else { 1.0 - basis_at[k + 1..].iter().sum::<f64>() };
     let scale = -(degree as f64);
     [value, scale * basis(degree - 1, t)[k], scale * basis_derivative(degree - 1, t)[k]]
 }
