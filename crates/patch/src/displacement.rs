@@ -4,7 +4,30 @@
 //! departs from it and why.
 
 mod blend;
+mod combine;
+mod dense;
+mod displaced;
+mod domain;
 mod erbs;
+mod error;
+mod extension;
+mod green;
+mod intrinsic;
+mod item;
+mod laplacian;
+mod place;
+mod reach;
 
 pub use blend::{Blend, BlendError, BlendFunction, Range};
+pub use combine::Combination;
+pub use displaced::{Displacements, ItemReport, Settings};
+pub use domain::Domain;
 pub use erbs::Erbs;
+pub use error::DisplacementError;
+pub use item::Item;
+pub use laplacian::{Direction, Laplacian};
+pub use place::{Placed, place};
+pub use reach::Profile;
+
+#[cfg(test)]
+mod tests;

@@ -13,4 +13,7 @@ pub mod cage;
 mod displacement;
 
 pub use bernstein::{basis, basis_derivative, binomial};
-pub use displacement::{Blend, BlendError, BlendFunction, Erbs, Range};
+pub use displacement::{
+    Blend, BlendError, BlendFunction, Combination, Direction, DisplacementError, Displacements, Domain, Erbs,
+    Item, ItemReport, Laplacian, Placed, Profile, Range, Settings, place,
+};
