@@ -515,6 +515,44 @@ fn discs_are_merged_by_a_tube_and_one_gets_a_handle() {
     bench.rest(600);
 }
 
+/// A thin plate would swell to three times the radius, or draw together to a string.
+#[test]
+fn a_merge_stays_a_tube_however_long_it_is() {
+    for (radius, height) in [(0.3, 0.3), (0.3, 0.9), (0.12, 0.9), (0.06, 0.3)] {
+        let mut bench = Bench::new();
+        for (curve, z) in [(1, 0.0), (2, height)] {
+            let corners = circle(0.8, 4, z).into_iter().map(ductile_spec::Through::Place).collect();
+            bench.edit(Edit::Curve { through: corners, closed: true });
+            bench.edit(Edit::Sheet { boundary: CurveId(curve) });
+        }
+        bench.edit(Edit::Spacing { of: ductile_spec::SpacingOf::Document, spacing: Some(0.12) });
+        bench.rest(600);
+        let (from, to) = (on(1, dvec3(0.0, 0.0, 0.0)), on(2, dvec3(0.0, 0.0, height)));
+        bench.edit(Edit::Merge { from, to, radius, keep: true });
+        // As it was built, and as it is built from its document.
+        for is_again in [false, true] {
+            if is_again {
+                let text = bench.document.clone();
+                bench.accept(Request::OpenText { text });
+            }
+            bench.rest(300);
+            let shape = &bench.modeler.model().surfaces[&SurfaceId(1)];
+            let is_middle = |p: &&DVec3| (p.z / height - 0.5).abs() < 0.2;
+            let inside = shape.mesh.vertices().map(|v| shape.positions[v.index()]);
+            let around: Vec<f64> = inside
+                .collect::<Vec<_>>()
+                .iter()
+                .filter(is_middle)
+                .map(|p| p.x.hypot(p.y) / radius)
+                .collect();
+            assert!(around.len() > 8, "{radius} {height}: {} vertices in the middle", around.len());
+            let (low, high) =
+                around.iter().fold((f64::INFINITY, 0.0_f64), |(l, h), r| (l.min(*r), h.max(*r)));
+            assert!(low > 0.6 && high < 1.1, "{radius} {height} {is_again}: between {low} and {high} radii");
+        }
+    }
+}
+
 #[test]
 fn what_cannot_be_merged_or_glued_is_refused_with_a_reason() {
     let mut bench = two_discs();

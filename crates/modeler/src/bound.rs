@@ -4,12 +4,12 @@ use crate::error::ModelError;
 use crate::model::Model;
 use crate::plane::Planes;
 use crate::region::{self, Choice, solver_objective};
-use crate::shape::{CurveShape, SurfaceShape};
+use crate::shape::{CurveShape, GROWN, SurfaceShape};
 use ductile_mesh::VertexId;
 use ductile_solver::{
     Aim, CurveSettings, CurveSolver, EdgePlaces, Predicted, Rings, Settings, SolverError, SurfaceSolver,
 };
-use ductile_spec::{CurveId, Document, Objective, PointId, SurfaceId};
+use ductile_spec::{CurveId, Document, Objective, PointId, Region, SurfaceId};
 use glam::DVec3;
 use std::collections::BTreeMap;
 
@@ -71,6 +71,8 @@ pub struct BoundSurface {
     vertices: Vec<VertexId>,
     compact: Vec<u32>,
     choice: Choice,
+    /// Whether it is to be fair, but not yet.
+    pub(crate) is_beginning: bool,
 }
 
 impl BoundSurface {
@@ -91,19 +93,25 @@ impl BoundSurface {
         }
         let solver = SurfaceSolver::new(rings, fixed, Settings::default()).map_err(fail)?;
         let positions: Vec<DVec3> = vertices.iter().map(|v| shape.positions[v.index()]).collect();
-        Ok(Self { revision: shape.revision, solver, positions, vertices, compact, choice: Choice::default() })
+        let (revision, choice) = (shape.revision, Choice::default());
+        Ok(Self { revision, solver, positions, vertices, compact, choice, is_beginning: false })
     }
 
     /// Takes over what the document wants minimised; returns whether that is something else than before.
     pub(crate) fn choose(&mut self, model: &Model, id: SurfaceId, shape: &SurfaceShape) -> bool {
         let regions = model.document.surfaces.get(&id).map_or(&[][..], |surface| &surface.regions);
         let of_surface = model.document.objective_of_surface(id);
+        let asks = |what| of_surface == what || regions.iter().any(|region| region.objective == Some(what));
+        self.is_beginning = shape.age < GROWN && asks(Objective::Fair);
+        let now = |objective: Objective| match objective {
+            Objective::Fair if self.is_beginning => Objective::ThinPlate,
+            _ => objective,
+        };
         // Only the membrane looks at the radius, which changes with every drag.
-        let is_film = |objective| objective == Objective::Membrane;
-        let has_film =
-            is_film(of_surface) || regions.iter().any(|region| region.objective.is_some_and(is_film));
-        let radius = if has_film { model.document.extent().1 } else { 0.0 };
-        let choice = Choice { of_surface, regions: regions.to_vec(), radius };
+        let radius = if asks(Objective::Membrane) { model.document.extent().1 } else { 0.0 };
+        let of_region = |region: &Region| Region { objective: region.objective.map(now), ..*region };
+        let regions = regions.iter().map(of_region).collect();
+        let choice = Choice { of_surface: now(of_surface), regions, radius };
         if choice == self.choice {
             return false;
         }

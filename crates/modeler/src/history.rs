@@ -128,6 +128,7 @@ mod tests {
             pins: Vec::new(),
             spacing: 1.0,
             wanted: Vec::new(),
+            age: 0,
             revision: 1,
         };
         let mut model = Model::default();

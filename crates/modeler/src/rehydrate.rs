@@ -185,7 +185,7 @@ pub(crate) fn build_surface(
     }
     check_area(id, measure::total_area(&mesh, &positions), &positions, spacing)?;
     let (embeddings, pins, wanted) = (Vec::new(), Vec::new(), Vec::new());
-    let bare = SurfaceShape { mesh, positions, embeddings, pins, spacing, wanted, revision };
+    let bare = SurfaceShape { mesh, positions, embeddings, pins, spacing, wanted, age: 0, revision };
     let graded = is_graded.then_some(surface);
     let mut shape = bare.clone();
     embed_curves(&mut shape, skeleton, curves, Laying::OnCurves, graded)?;

@@ -6,7 +6,7 @@ use crate::density;
 use crate::maintain::{self, Upkeep};
 use crate::model::Model;
 use crate::network::Networks;
-use crate::shape::{CurveShape, SurfaceShape, edit};
+use crate::shape::{CurveShape, GROWN, SurfaceShape, edit};
 use ductile_solver::Budget;
 use ductile_spec::{CurveId, Figures, SurfaceId};
 use std::collections::{BTreeMap, BTreeSet};
@@ -270,7 +270,8 @@ impl Relaxer {
                 state.residual =
                     if report.energy > 0.0 { report.predicted_decrease / report.energy } else { 0.0 };
                 state.iterations = report.cg_iterations;
-                state.at_rest = report.at_rest && motion.is_empty() && bound.solver.asleep() == 0;
+                state.at_rest =
+                    report.at_rest && motion.is_empty() && bound.solver.asleep() == 0 && !bound.is_beginning;
                 self.rescues = self.rescues.saturating_add(u32::from(report.damped));
             }
             Err(_) => self.rescues = self.rescues.saturating_add(1),
@@ -280,7 +281,9 @@ impl Relaxer {
         }
         self.states.insert(id, state);
         if let Some(shape) = model.surfaces.get_mut(&id) {
-            bound.write(edit(shape));
+            let shape = edit(shape);
+            bound.write(shape);
+            shape.age = GROWN.min(shape.age + 1);
         }
     }
 

@@ -36,9 +36,16 @@ pub struct SurfaceShape {
     pub spacing: f64,
     /// Target edge length by vertex slot, where it is not the same everywhere; else empty.
     pub wanted: Vec<f64>,
+    /// Steps that it has taken since it was built from a skeleton, counted up to [`GROWN`].
+    pub age: u8,
     /// Names this connectivity.
     pub revision: u64,
 }
+
+/// Steps in which a shape that was built from a skeleton loses its corners. Until then it minimises bending where it is to
+/// be `fair`: what changes of curvature there are between the triangles of a skeleton says nothing of the shape, and
+/// to even them out may end in a crumple.
+pub(crate) const GROWN: u8 = 4;
 
 /// A control curve in a surface (shadowing, thesis section 7.3.3): as many vertices as the curve has samples.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -74,6 +74,7 @@ fn bare(surface: &Surface, spacing: f64) -> Option<SurfaceShape> {
         pins: Vec::new(),
         spacing,
         wanted: Vec::new(),
+        age: 0,
         revision: 0,
     })
 }

@@ -14,6 +14,10 @@ pub(super) fn glue(
     reversed: bool,
 ) -> Result<(), ModelError> {
     let (one, other) = (rim_at(model, from)?, rim_at(model, to)?);
-    let join = if skirt { band } else { lay };
-    join(model, (from.surface, one), (to.surface, other), reversed).map(drop)
+    let (one, other) = ((from.surface, one), (to.surface, other));
+    if skirt {
+        band(model, one, other, reversed).map(drop)
+    } else {
+        lay(model, one, other, reversed).map(drop)
+    }
 }

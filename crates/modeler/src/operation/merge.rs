@@ -2,18 +2,22 @@
 //! round each place, its inside is burnt out, and a band closes the space between the loops.
 
 use crate::error::ModelError;
-use crate::model::Model;
+use crate::model::{Model, round_to_digits};
 use crate::operation::s_loop::draw;
-use crate::operation::{burnout, delete};
+use crate::operation::{burnout, delete, region};
+use crate::shape::{SurfaceShape, edit};
 use crate::surgery::opening::{edges_around, region_at};
 use crate::surgery::rims::{Rim, band};
 use crate::surgery::tracing::Stop;
-use ductile_mesh::{SourceTag, measure, nearest_place, summary};
-use ductile_spec::{CurveId, MAX_COORDINATE, On, SurfaceId};
+use crate::{density, maintain};
+use ductile_mesh::{FaceId, SourceTag, measure, nearest_place, summary};
+use ductile_spec::{CurveId, MAX_COORDINATE, Objective, On, SurfaceId};
 use glam::DVec3;
 
 /// Control points of the loop round a hole.
 const CORNERS: u32 = 4;
+/// Longest edges of a tube, as a part of its radius: twelve triangles go round it.
+const TUBE_SPACING: f64 = 0.5;
 
 /// Makes a tube between two places.
 pub(super) fn merge(model: &mut Model, from: On, to: On, radius: f64, keep: bool) -> Result<(), ModelError> {
@@ -30,11 +34,34 @@ pub(super) fn merge(model: &mut Model, from: On, to: On, radius: f64, keep: bool
     let rims =
         [(from.surface, rim_of(model, from.surface, one)?), (to.surface, rim_of(model, to.surface, other)?)];
     let [first, second] = rims;
-    band(model, first, second, false)?;
-    if !keep {
-        delete::curve(model, one)?;
-        delete::curve(model, other)?;
+    let face = band(model, first, second, false)?;
+    if keep {
+        return stay_a_tube(model, (from.surface, face), radius);
     }
+    delete::curve(model, one)?;
+    delete::curve(model, other)
+}
+
+/// A thin plate between two rims does not stay a tube: some radii long, it swells to a ball, which bends less; a shorter
+/// one draws together to a neck that the mesh cannot show. What minimises the change of curvature stays a tube, if its
+/// triangles are small enough to show how it bends.
+fn stay_a_tube(model: &mut Model, (id, face): (SurfaceId, FaceId), radius: f64) -> Result<(), ModelError> {
+    let wanted = round_to_digits(radius * TUBE_SPACING, 2);
+    let is_coarse = model.spacing_of(id) > wanted;
+    region::change_around(model, id, face, |region| {
+        region.objective = Some(Objective::Fair);
+        region.spacing = is_coarse.then_some(wanted);
+    })?;
+    model.document.validate()?;
+    // It begins as a straight tube: long triangles from rim to rim say nothing of a change of curvature.
+    let surface = model.document.surfaces.get(&id).cloned().ok_or(ModelError::NoSurface(id))?;
+    let revision = model.next_revision();
+    let shape = edit::<SurfaceShape>(model.surfaces.get_mut(&id).ok_or(ModelError::NoSurface(id))?);
+    if is_coarse {
+        density::begin(shape, &surface, 1);
+    }
+    maintain::refine(shape, 1);
+    shape.revision = revision;
     Ok(())
 }
 

@@ -3,7 +3,7 @@
 use crate::error::ModelError;
 use crate::model::Model;
 use crate::region;
-use ductile_mesh::regions;
+use ductile_mesh::{FaceId, regions};
 use ductile_spec::{CurveId, PointId, Region, SurfaceId};
 use glam::DVec3;
 use std::sync::Arc;
@@ -19,9 +19,20 @@ pub(super) fn change(
     if !at.is_finite() {
         return Err(ModelError::BadPosition);
     }
+    let shape = model.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?;
+    let face = region::nearest_face(shape, at).ok_or(ModelError::NoSurface(id))?;
+    change_around(model, id, face, change)
+}
+
+/// The same for the region of a face.
+pub(super) fn change_around(
+    model: &mut Model,
+    id: SurfaceId,
+    face: FaceId,
+    change: impl FnOnce(&mut Region),
+) -> Result<bool, ModelError> {
     let shape = Arc::clone(model.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?);
     let labels = regions(&shape.mesh);
-    let face = region::nearest_face(&shape, at).ok_or(ModelError::NoSurface(id))?;
     let piece = labels.of(face);
     let name = (labels.count() > 1).then(|| region::name_of(&shape, &labels, piece)).flatten();
     let Some((curve, from, side)) = name else { return Ok(false) };

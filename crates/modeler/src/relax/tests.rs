@@ -76,6 +76,7 @@ fn crowded() -> Model {
         pins: Vec::new(),
         spacing: 0.3,
         wanted: Vec::new(),
+        age: 0,
         revision: 1,
     };
     let mut model = Model::default();

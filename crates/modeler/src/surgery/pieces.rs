@@ -358,7 +358,8 @@ fn shape_of(
         .collect();
     let wanted = if opening.wanted.is_empty() { Vec::new() } else { carry(&opening.wanted) };
     let revision = model.next_revision();
-    SurfaceShape { mesh, positions, embeddings, pins, spacing: before.spacing, wanted, revision }
+    let (spacing, age) = (before.spacing, before.age);
+    SurfaceShape { mesh, positions, embeddings, pins, spacing, wanted, age, revision }
 }
 
 /// Marks the edges along a chain.

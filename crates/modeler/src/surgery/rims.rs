@@ -6,7 +6,9 @@ use crate::operation::delete::forget_lost_curves;
 use crate::operation::{forget_lost, refresh_skeleton};
 use crate::shape::{SurfaceShape, edit};
 use crate::surgery::joining::{Told, United, say, sew, split, unite};
-use ductile_mesh::{Bridge, BridgeError, Mesh, Seam, Sense, VertexId, boundary_loops, propagate_orientation};
+use ductile_mesh::{
+    Bridge, BridgeError, FaceId, Mesh, Seam, Sense, VertexId, boundary_loops, propagate_orientation,
+};
 use ductile_spec::{On, SurfaceId};
 use glam::DVec3;
 use std::sync::Arc;
@@ -54,12 +56,13 @@ fn together(
 }
 
 /// Closes the space between two rims with a band. The rims become inner lines; the second surface becomes part of the first.
+/// Gives a face of the band.
 pub(crate) fn band(
     model: &mut Model,
     one: (SurfaceId, Rim),
     other: (SurfaceId, Rim),
     reversed: bool,
-) -> Result<SurfaceId, ModelError> {
+) -> Result<FaceId, ModelError> {
     let id = one.0;
     let is_handle = one.0 == other.0;
     let (told, mut first, mut second) = together(model, one, other)?;
@@ -76,13 +79,15 @@ pub(crate) fn band(
             Ok(()) => {
                 let revision = model.next_revision();
                 let shape = edit(model.surfaces.get_mut(&id).ok_or(ModelError::NoSurface(id))?);
+                let before = beside(&shape.mesh, &first);
                 shape.mesh.bridge(&bridge, &shape.positions).map_err(ModelError::NoBand)?;
+                let new = beside(&shape.mesh, &first).into_iter().find(|face| !before.contains(face));
                 propagate_orientation(&mut shape.mesh);
                 shape.revision = revision;
                 refresh_skeleton(model, id);
                 say(model, id, &told);
                 model.document.validate()?;
-                return Ok(id);
+                return new.ok_or(ModelError::NoRim(id));
             }
             Err(BridgeError::SecondEdge(edge)) => {
                 let ends = shape.mesh.edge_vertices(edge);
@@ -95,6 +100,12 @@ pub(crate) fn band(
         }
     }
     Err(ModelError::NoBand(BridgeError::TooShort(first.len().min(second.len()))))
+}
+
+/// The faces beside the first edge of a rim.
+fn beside(mesh: &Mesh, rim: &Rim) -> Vec<FaceId> {
+    let edge = rim.first().zip(rim.get(1)).and_then(|(a, b)| mesh.edge_between(*a, *b));
+    edge.map(|edge| mesh.edge_faces(edge)).into_iter().flat_map(|(f, g)| [Some(f), g]).flatten().collect()
 }
 
 /// Gives the second rim the sense that makes the longer band.
