@@ -9,11 +9,23 @@
 //! arithmetic, no fused multiply-add. The same input gives the same bits on every target.
 
 mod bernstein;
+mod bezier;
 pub mod cage;
 mod displacement;
+mod jet;
+#[cfg(test)]
+mod property_test;
+mod ribbon;
+pub mod s_patch;
+mod surface_point;
 
 pub use bernstein::{basis, basis_derivative, binomial};
+pub use bezier::{curve_derivative, curve_point, elevated, hodograph};
 pub use displacement::{
     Blend, BlendError, BlendFunction, Combination, Direction, DisplacementError, Displacements, Domain, Erbs,
     Item, ItemReport, Laplacian, Placed, Profile, Range, Settings, place,
 };
+pub use ribbon::{
+    Adjusted, MOST_DEGREE, MOST_SIDES, NoNormal, Ribbon, RibbonError, RibbonLoop, made_compatible,
+};
+pub use surface_point::SurfacePoint;
