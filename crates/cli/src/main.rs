@@ -5,8 +5,10 @@
 //! Results go to standard output or files, everything else to standard error.
 
 mod check;
+mod fill;
 mod input;
 mod link;
+mod ribbon_file;
 mod run;
 mod script;
 mod solve;
@@ -35,6 +37,8 @@ enum Command {
     },
     /// Do the acts of a script and write the document, the mesh or a report
     Run(run::Options),
+    /// Fill holes between ribbons with S-patches and write the mesh
+    Fill(fill::Options),
     /// Print the share link of a specification
     Link {
         /// Spec file, or - for standard input
@@ -58,6 +62,7 @@ fn main() -> ExitCode {
         Command::Solve(options) => solve::run(&options),
         Command::Run(options) => run::run(&options),
         Command::Check { file } => check::run(&file).map(|()| ExitCode::SUCCESS),
+        Command::Fill(options) => fill::run(&options),
         Command::Link { spec, base } => link::link(&spec, &base).map(|()| ExitCode::SUCCESS),
         Command::Verify(options) => verify::run(&options),
         Command::Unlink { link } => link::unlink(&link).map(|()| ExitCode::SUCCESS),

@@ -9,12 +9,13 @@ mod disc;
 mod energy;
 mod family;
 mod gradient;
-mod json;
+pub(crate) mod json;
 mod mesh;
 mod param_map;
-mod reader;
-mod report;
+pub(crate) mod reader;
+pub(crate) mod report;
 mod rest;
+mod s_patch;
 mod smooth;
 mod tolerances;
 
@@ -40,6 +41,7 @@ const FORMATS: &[(&str, &[&str], Check)] = &[
     ("gradient", &["vertices", "triangles", "gradient"], gradient::check),
     ("cage surfaces", &["cases[].cage"], cage::check),
     ("parameter maps", &["maps"], param_map::check),
+    ("S-patch", &["ribbons"], s_patch::check),
     ("raised disc", &["vertices", "triangles", "heights_at_radii", "cases"], disc::check),
 ];
 

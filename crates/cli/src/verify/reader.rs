@@ -90,6 +90,10 @@ impl<'a> Item<'a> {
         matches!(self.json, Json::Text(_))
     }
 
+    pub(crate) fn is_list(&self) -> bool {
+        matches!(self.json, Json::List(_))
+    }
+
     pub(crate) fn list(&self) -> Result<impl ExactSizeIterator<Item = Self> + use<'a>, Flaw> {
         let Json::List(list) = self.json else { return Err(self.flaw("a list is expected")) };
         let place = self.place.clone();

@@ -11,13 +11,23 @@ pub(crate) struct Stated {
     pub(crate) most: f64,
 }
 
-/// Reads the field `tolerance`. One that is not positive, or so wide that anything would pass, is a flaw of the file.
+/// Reads the field `tolerance`; see [`read_in`].
 pub(crate) fn read<const N: usize>(
     file: &Fields<'_>,
     known: [Stated; N],
     report: &mut Report,
 ) -> Result<[f64; N], Flaw> {
-    let Some(item) = file.get("tolerance") else { return Ok(known.map(|stated| stated.default)) };
+    read_in(file, "tolerance", known, report)
+}
+
+/// Reads the tolerances in a field. One that is not positive, or so wide that anything would pass, is a flaw of the file.
+pub(crate) fn read_in<const N: usize>(
+    file: &Fields<'_>,
+    field: &str,
+    known: [Stated; N],
+    report: &mut Report,
+) -> Result<[f64; N], Flaw> {
+    let Some(item) = file.get(field) else { return Ok(known.map(|stated| stated.default)) };
     let fields = item.fields()?;
     let mut values = [0.0; N];
     for (value, stated) in values.iter_mut().zip(known) {
