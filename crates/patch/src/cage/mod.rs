@@ -21,10 +21,12 @@ mod interpolant;
 mod jet;
 mod kite;
 mod links;
+mod pattern;
 mod polygons;
 mod ring;
 mod split;
 mod surface;
+mod tessellation;
 
 pub mod primitive;
 
@@ -35,3 +37,4 @@ pub use polygons::Cage;
 pub use ring::Boundary;
 pub use split::Split;
 pub use surface::{CageSurface, Settings, SurfacePoint};
+pub use tessellation::Tessellation;

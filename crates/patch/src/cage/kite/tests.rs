@@ -144,12 +144,13 @@ proptest! {
             let middle = corner(-sign, c).map(|x| x * t * libm::exp(t * t - t));
             let far = mix(corner(sign, c), [1.0, 0.0]);
             let area = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+            // Not divided by the whole area, which vanishes for t = 1: the condition is homogeneous.
+            let b = [area(point, middle, far), area(near, point, far), area(near, middle, point)];
             let whole = area(near, middle, far);
-            let b = [area(point, middle, far), area(near, point, far), area(near, middle, point)].map(|b| b / whole);
             // Of the ends of the curve the half beyond the middle is meant.
-            prop_assert!(b[2] >= b[0] - 1e-12);
+            prop_assert!(b[2] * whole >= b[0] * whole - 1e-14);
             let off = b[1] * b[1] * t * t - 4.0 * b[0] * b[2];
-            prop_assert!(off.abs() < 1e-12, "{off:e}");
+            prop_assert!(off.abs() < 1e-14, "{off:e}");
         }
     }
 }

@@ -1,0 +1,323 @@
+//! Fast tessellation: positions and normals on a grid of every quad, from tables of weights.
+//!
+//! In a tessellation with `R` steps the local parameters of all four corners are nodes of one grid, so a vertex of the result is a
+//! fixed sparse combination of vertices of the quads, and so are its two derivatives. Quads that look alike (the same valences
+//! round the same corners, in the same order) share one table, see `pattern.rs`; what is left per vertex are dot products. When a
+//! vertex of the cage moves, only quads whose combinations it enters are evaluated again.
+//!
+//! Samples on shared edges and corners belong to the first quad that has them, by edge and index and never by position: the
+//! result is watertight by construction. The order is: used vertices, then `R - 1` samples for each edge, then `(R - 1)²` for
+//! each quad.
+
+use super::error::CageError;
+use super::links::name;
+use super::pattern::{LANES, Pattern, Tables};
+use super::surface::CageSurface;
+use glam::DVec3;
+
+/// Most samples of a tessellation.
+const MOST_SAMPLES: usize = 1 << 26;
+
+/// Samples of one quad that lie one after the other in the result and in the table.
+#[derive(Clone, Copy, Debug)]
+struct Run {
+    /// First pair of nodes in the table.
+    pair: u32,
+    /// First sample.
+    sample: u32,
+    count: u32,
+}
+
+/// A triangulated surface over a cage, with its normals, that follows the cage.
+#[derive(Clone, Debug)]
+pub struct Tessellation {
+    resolution: usize,
+    patterns: Vec<Pattern>,
+    /// For each quad its pattern.
+    pattern_of: Vec<u32>,
+    /// For each quad where its vertices begin; they stand in the order of the pattern.
+    first_slot: Vec<u32>,
+    slots: Vec<u32>,
+    /// For each quad where its runs begin.
+    first_run: Vec<u32>,
+    runs: Vec<Run>,
+    /// For each vertex of the quads, the quads that it enters.
+    first_user: Vec<u32>,
+    users: Vec<u32>,
+    triangles: Vec<[u32; 3]>,
+    positions: Vec<DVec3>,
+    normals: Vec<DVec3>,
+    /// Batch in which each quad was last evaluated.
+    stamp: Vec<u32>,
+    batch: u32,
+}
+
+impl Tessellation {
+    /// Tables for a surface with so many steps along every edge, 1 to 256, and the first evaluation.
+    ///
+    /// # Errors
+    /// [`CageError::Resolution`], and [`CageError::TooLarge`] when the tables or the result would not fit into reasonable memory.
+    pub fn new(surface: &CageSurface, resolution: usize) -> Result<Self, CageError> {
+        if !(1..=256).contains(&resolution) {
+            return Err(CageError::Resolution(resolution));
+        }
+        let samples = surface.quads().len().saturating_mul(resolution * resolution);
+        if samples > MOST_SAMPLES {
+            return Err(CageError::TooLarge(samples));
+        }
+        let mut tables = Tables::new(resolution);
+        let (mut pattern_of, mut first_slot, mut slots) = (Vec::new(), vec![0], Vec::new());
+        for quad in 0..surface.quads().len() {
+            let (pattern, vertices) = tables.pattern_of(surface, quad)?;
+            pattern_of.push(name(pattern));
+            slots.extend(vertices);
+            first_slot.push(name(slots.len()));
+        }
+        let (first_user, users) = inverse(surface.positions().len(), &first_slot, &slots);
+        let layout = Layout::new(surface, resolution);
+        let (first_run, runs) = layout.runs(surface);
+        let triangles = layout.triangles(surface);
+        let mut tessellation = Self {
+            resolution,
+            patterns: tables.into_patterns(),
+            stamp: vec![0; pattern_of.len()],
+            pattern_of,
+            first_slot,
+            slots,
+            first_run,
+            runs,
+            first_user,
+            users,
+            triangles,
+            positions: vec![DVec3::ZERO; layout.count],
+            normals: vec![DVec3::ZERO; layout.count],
+            batch: 0,
+        };
+        tessellation.evaluate(surface.positions());
+        Ok(tessellation)
+    }
+
+    /// Steps along every edge.
+    #[must_use]
+    pub fn resolution(&self) -> usize {
+        self.resolution
+    }
+
+    /// Positions of all samples.
+    #[must_use]
+    pub fn positions(&self) -> &[DVec3] {
+        &self.positions
+    }
+
+    /// Unit normals of all samples; zero where the surface has no tangent plane.
+    #[must_use]
+    pub fn normals(&self) -> &[DVec3] {
+        &self.normals
+    }
+
+    /// Triangles, counter-clockwise as the faces of the cage are.
+    #[must_use]
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    /// Evaluates all samples from the positions of the vertices of the quads ([`CageSurface::positions`]).
+    ///
+    /// # Panics
+    /// When there are not as many positions as the surface had.
+    pub fn evaluate(&mut self, vertices: &[DVec3]) {
+        assert_eq!(vertices.len() + 1, self.first_user.len(), "one position for each vertex of the quads");
+        for quad in 0..self.pattern_of.len() {
+            self.evaluate_quad(quad, vertices);
+        }
+    }
+
+    /// Evaluates what the moved vertices enter, and says how many samples that were. `moved` is what [`CageSurface::move_to`] says.
+    ///
+    /// # Panics
+    /// As [`Self::evaluate`], and for a vertex that does not exist.
+    pub fn update(&mut self, vertices: &[DVec3], moved: &[u32]) -> usize {
+        assert_eq!(vertices.len() + 1, self.first_user.len(), "one position for each vertex of the quads");
+        self.batch = self.batch.wrapping_add(1);
+        let mut evaluated = 0;
+        for &vertex in moved {
+            let vertex = vertex as usize;
+            for user in self.first_user[vertex]..self.first_user[vertex + 1] {
+                let quad = self.users[user as usize] as usize;
+                if self.stamp[quad] != self.batch {
+                    self.stamp[quad] = self.batch;
+                    evaluated += self.evaluate_quad(quad, vertices);
+                }
+            }
+        }
+        evaluated
+    }
+
+    fn evaluate_quad(&mut self, quad: usize, vertices: &[DVec3]) -> usize {
+        let pattern = &self.patterns[self.pattern_of[quad] as usize];
+        let slots = &self.slots[self.first_slot[quad] as usize..self.first_slot[quad + 1] as usize];
+        let runs = &self.runs[self.first_run[quad] as usize..self.first_run[quad + 1] as usize];
+        let mut evaluated = 0;
+        for run in runs {
+            let (from, count) = (run.sample as usize, run.count as usize);
+            evaluated += count;
+            let positions = self.positions[from..from + count].chunks_mut(LANES);
+            let normals = self.normals[from..from + count].chunks_mut(LANES);
+            for ((pair, positions), normals) in (run.pair as usize..).zip(positions).zip(normals) {
+                let sums = combine(pattern.weights(pair), slots, vertices);
+                for (lane, (position, normal)) in positions.iter_mut().zip(normals).enumerate() {
+                    let at =
+                        |row: usize| DVec3::new(sums[row][lane], sums[row + 1][lane], sums[row + 2][lane]);
+                    *position = at(0);
+                    *normal = unit(at(3).cross(at(6)));
+                }
+            }
+        }
+        evaluated
+    }
+}
+
+/// The coordinates of two samples and of their derivatives: x, y, z, then those by `u`, then by `v`.
+#[inline]
+fn combine(weights: &[[f64; 3 * LANES]], slots: &[u32], vertices: &[DVec3]) -> [[f64; LANES]; 9] {
+    let mut sums = [[0.0; LANES]; 9];
+    for (weights, &slot) in weights.iter().zip(slots) {
+        let point = vertices[slot as usize].to_array();
+        for row in 0..9 {
+            for lane in 0..LANES {
+                sums[row][lane] += weights[row / 3 * LANES + lane] * point[row % 3];
+            }
+        }
+    }
+    sums
+}
+
+#[inline]
+fn unit(cross: DVec3) -> DVec3 {
+    let length = cross.length();
+    if length > 0.0 { cross / length } else { DVec3::ZERO }
+}
+
+/// For each vertex the quads whose slots hold it.
+fn inverse(vertices: usize, first_slot: &[u32], slots: &[u32]) -> (Vec<u32>, Vec<u32>) {
+    let mut first = vec![0_u32; vertices + 1];
+    slots.iter().for_each(|&vertex| first[vertex as usize + 1] += 1);
+    (0..vertices).for_each(|vertex| first[vertex + 1] += first[vertex]);
+    let mut next = first.clone();
+    let mut users = vec![0; slots.len()];
+    for (quad, range) in (0..).zip(first_slot.windows(2)) {
+        for &vertex in &slots[range[0] as usize..range[1] as usize] {
+            let place = &mut next[vertex as usize];
+            users[*place as usize] = quad;
+            *place += 1;
+        }
+    }
+    (first, users)
+}
+
+/// Where the samples of vertices, edges and quads stand.
+struct Layout {
+    resolution: usize,
+    /// Sample of each vertex; without meaning for one that no quad uses.
+    vertex: Vec<u32>,
+    /// First sample of each half-edge's edge, and whether the half-edge runs along the samples.
+    edge: Vec<(u32, bool)>,
+    first_inner: usize,
+    count: usize,
+}
+
+impl Layout {
+    fn new(surface: &CageSurface, resolution: usize) -> Self {
+        let links = &surface.links;
+        let mut count = 0;
+        let vertex = (0..links.vertex_count())
+            .map(|vertex| {
+                count += usize::from(links.valence(vertex) > 0);
+                name(count).saturating_sub(1)
+            })
+            .collect();
+        let mut edge = vec![(0, true); links.half_edge_count()];
+        for h in links.edges() {
+            edge[h] = (name(count), true);
+            if let Some(twin) = links.twin(h) {
+                edge[twin] = (name(count), false);
+            }
+            count += resolution - 1;
+        }
+        let first_inner = count;
+        count += surface.quads().len() * (resolution - 1) * (resolution - 1);
+        Self { resolution, vertex, edge, first_inner, count }
+    }
+
+    /// What each quad evaluates: its inside, the edges of which it has the first half-edge, and vertices that no quad before has.
+    fn runs(&self, surface: &CageSurface) -> (Vec<u32>, Vec<Run>) {
+        let steps = self.resolution - 1;
+        let pairs = |count: usize| count.div_ceil(LANES);
+        let edge_from = pairs(steps * steps);
+        let corner_from = edge_from + 4 * pairs(steps);
+        let mut is_done = vec![false; self.vertex.len()];
+        let (mut first, mut runs) = (vec![0], Vec::new());
+        for (quad, corners) in surface.quads().iter().enumerate() {
+            if steps > 0 {
+                let sample = name(self.first_inner + quad * steps * steps);
+                runs.push(Run { pair: 0, sample, count: name(steps * steps) });
+                for side in 0..4 {
+                    let (sample, is_first) = self.edge[4 * quad + side];
+                    if is_first {
+                        runs.push(Run {
+                            pair: name(edge_from + side * pairs(steps)),
+                            sample,
+                            count: name(steps),
+                        });
+                    }
+                }
+            }
+            for (corner, &vertex) in corners.iter().enumerate() {
+                if !std::mem::replace(&mut is_done[vertex as usize], true) {
+                    let sample = self.vertex[vertex as usize];
+                    runs.push(Run { pair: name(corner_from + corner), sample, count: 1 });
+                }
+            }
+            first.push(name(runs.len()));
+        }
+        (first, runs)
+    }
+
+    /// The sample at node `(p, q)` of a quad's grid.
+    fn sample(&self, corners: [u32; 4], quad: usize, p: usize, q: usize) -> u32 {
+        let last = self.resolution;
+        let along = |side: usize, step: usize| {
+            let (first, is_along) = self.edge[4 * quad + side];
+            first + name(if is_along { step - 1 } else { last - 1 - step })
+        };
+        let corner = |k: usize| self.vertex[corners[k] as usize];
+        match (p, q) {
+            (0, 0) => corner(0),
+            (p, 0) if p == last => corner(1),
+            (p, q) if p == last && q == last => corner(2),
+            (0, q) if q == last => corner(3),
+            (p, 0) => along(0, p),
+            (p, q) if p == last => along(1, q),
+            (p, q) if q == last => along(2, last - p),
+            (0, q) => along(3, last - q),
+            (p, q) => name(self.first_inner + (quad * (last - 1) + q - 1) * (last - 1) + p - 1),
+        }
+    }
+
+    fn triangles(&self, surface: &CageSurface) -> Vec<[u32; 3]> {
+        let mut triangles = Vec::with_capacity(2 * surface.quads().len() * self.resolution * self.resolution);
+        for (quad, &corners) in surface.quads().iter().enumerate() {
+            for q in 0..self.resolution {
+                for p in 0..self.resolution {
+                    let at = |p, q| self.sample(corners, quad, p, q);
+                    let (a, b, c, d) = (at(p, q), at(p + 1, q), at(p + 1, q + 1), at(p, q + 1));
+                    triangles.extend([[a, b, c], [a, c, d]]);
+                }
+            }
+        }
+        triangles
+    }
+}
+
+#[cfg(test)]
+mod tests;
