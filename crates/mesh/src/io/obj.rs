@@ -110,21 +110,42 @@ pub fn write(mesh: &Mesh, positions: &[DVec3], normals: Option<&[DVec3]>) -> Str
     text
 }
 
+/// The positions and polygons of an OBJ text, as they stand.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Polygons {
+    /// All positions, used or not.
+    pub positions: Vec<DVec3>,
+    /// The corners of the faces, in order of the file.
+    pub faces: Vec<Vec<u32>>,
+}
+
 /// Reads positions and faces. Texture coordinates, normals, groups and materials are passed over; polygons
 /// become fans from their first corner; negative indices count back from the latest position.
 ///
 /// # Errors
 /// See [`ObjError`].
 pub fn read(text: &str) -> Result<Soup, ObjError> {
-    let mut soup = Soup::default();
+    let Polygons { positions, faces } = read_polygons(text)?;
+    let fan = |face: &Vec<u32>| -> Vec<[u32; 3]> {
+        face[1..].windows(2).map(|pair| [face[0], pair[0], pair[1]]).collect()
+    };
+    Ok(Soup { positions, triangles: faces.iter().flat_map(fan).collect() })
+}
+
+/// Reads positions and faces as [`read`] does, but leaves polygons whole.
+///
+/// # Errors
+/// See [`ObjError`].
+pub fn read_polygons(text: &str) -> Result<Polygons, ObjError> {
+    let mut positions = Vec::new();
     let mut faces: Vec<(usize, Vec<i64>)> = Vec::new();
     for (line, statement) in statements(text) {
         let mut words = statement.split_whitespace();
         match words.next() {
-            Some("v") => soup.positions.push(position(line, words)?),
+            Some("v") => positions.push(position(line, words)?),
             Some("f") => {
                 let corners: Vec<i64> =
-                    words.map(|w| corner(line, w, soup.positions.len())).collect::<Result<_, _>>()?;
+                    words.map(|w| corner(line, w, positions.len())).collect::<Result<_, _>>()?;
                 if corners.len() < 3 {
                     return Err(ObjError::ShortFace(line));
                 }
@@ -133,20 +154,19 @@ pub fn read(text: &str) -> Result<Soup, ObjError> {
             _ => {}
         }
     }
-    let count = soup.positions.len();
+    let count = positions.len();
     if u32::try_from(count).is_err() {
         return Err(ObjError::TooLarge);
     }
-    for (line, corners) in faces {
-        let mut indices = Vec::with_capacity(corners.len());
-        for index in corners {
+    let resolve = |(line, corners): (usize, Vec<i64>)| {
+        let resolve = |index: i64| {
             let is_there = usize::try_from(index).is_ok_and(|i| (1..=count).contains(&i));
             let resolved = u32::try_from(index.saturating_sub(1)).ok().filter(|_| is_there);
-            indices.push(resolved.ok_or(ObjError::IndexOutOfRange { line, index, count })?);
-        }
-        soup.triangles.extend(indices[1..].windows(2).map(|pair| [indices[0], pair[0], pair[1]]));
-    }
-    Ok(soup)
+            resolved.ok_or(ObjError::IndexOutOfRange { line, index, count })
+        };
+        corners.into_iter().map(resolve).collect()
+    };
+    Ok(Polygons { positions, faces: faces.into_iter().map(resolve).collect::<Result<_, _>>()? })
 }
 
 /// Reads a surface; positions that no face uses are dropped.
@@ -223,6 +243,8 @@ mod tests {
         let soup = read(text).unwrap();
         assert_eq!(soup.triangles, [[0, 1, 2], [0, 2, 3]]);
         assert_eq!(soup.positions.len(), 5);
+        let whole = read_polygons(text).unwrap();
+        assert_eq!((whole.faces, whole.positions), (vec![vec![0, 1, 2, 3]], soup.positions));
         assert_eq!(read_mesh(text).unwrap().1.len(), 4, "the stray position is dropped");
     }
 

@@ -28,6 +28,7 @@ mod split;
 mod surface;
 mod tessellation;
 
+pub mod edit;
 pub mod primitive;
 
 pub use blend::Blend;
