@@ -4,8 +4,10 @@
 //! is never passed over in silence: it is told, and then the file is not verified. To add a format, write its `check` and
 //! give it a line in [`FORMATS`].
 
+mod blend;
 mod cage;
 mod disc;
+mod displacement;
 mod energy;
 mod family;
 mod gradient;
@@ -42,6 +44,9 @@ const FORMATS: &[(&str, &[&str], Check)] = &[
     ("cage surfaces", &["cases[].cage"], cage::check),
     ("parameter maps", &["maps"], param_map::check),
     ("S-patch", &["ribbons"], s_patch::check),
+    ("displacement blends", &["cases[].triangles"], displacement::check),
+    ("blend functions", &["columns", "rows"], blend::check),
+    ("blend functions", &["range_columns", "range_rows"], blend::check),
     ("raised disc", &["vertices", "triangles", "heights_at_radii", "cases"], disc::check),
 ];
 
