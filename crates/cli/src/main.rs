@@ -5,6 +5,7 @@
 //! Results go to standard output or files, everything else to standard error.
 
 mod check;
+mod displace;
 mod fill;
 mod input;
 mod link;
@@ -39,6 +40,8 @@ enum Command {
     Run(run::Options),
     /// Fill holes between ribbons with S-patches and write the mesh
     Fill(fill::Options),
+    /// Move points and curves of a mesh, and the surface around them smoothly
+    Displace(displace::Options),
     /// Print the share link of a specification
     Link {
         /// Spec file, or - for standard input
@@ -63,6 +66,7 @@ fn main() -> ExitCode {
         Command::Run(options) => run::run(&options),
         Command::Check { file } => check::run(&file).map(|()| ExitCode::SUCCESS),
         Command::Fill(options) => fill::run(&options),
+        Command::Displace(options) => displace::run(&options),
         Command::Link { spec, base } => link::link(&spec, &base).map(|()| ExitCode::SUCCESS),
         Command::Verify(options) => verify::run(&options),
         Command::Unlink { link } => link::unlink(&link).map(|()| ExitCode::SUCCESS),
