@@ -653,6 +653,28 @@ fn a_cylinder_through_a_ball_is_trimmed_at_the_part_that_stays() {
 }
 
 #[test]
+fn where_two_surfaces_meet_is_told_before_they_are_trimmed() {
+    let mut bench = ball_and(true);
+    let (first, second) = (SurfaceId(1), SurfaceId(2));
+    let text = bench.document.clone();
+    let meeting = bench.accept(Request::Meet { first, second }).meeting.unwrap();
+    assert_eq!((meeting.first, meeting.second, meeting.lines.len()), (first, second, 1));
+    assert!(meeting.lines[0].closed && meeting.lines[0].along.len() > 20);
+    for at in &meeting.lines[0].along {
+        assert!((at.truncate().length() - 0.6).abs() < 0.02 && (at.z - 0.07).abs() < 1e-3, "{at}");
+    }
+    assert_eq!(bench.document, text);
+    for (first, second, why) in [(first, first, "itself"), (first, SurfaceId(9), "surface 9")] {
+        let refusal = bench.send(Request::Meet { first, second }).refused.unwrap();
+        assert!(refusal.reason.contains(why), "{refusal:?}");
+    }
+    // Apart, they meet nowhere.
+    let mut bench = two_discs();
+    let (first, second) = (SurfaceId(1), SurfaceId(2));
+    assert_eq!(bench.accept(Request::Meet { first, second }).meeting.unwrap().lines, []);
+}
+
+#[test]
 fn what_cannot_be_trimmed_is_refused_with_a_reason() {
     let mut bench = two_discs();
     let (first, second) = (on(1, DVec3::ZERO), on(2, dvec3(0.0, 0.0, 1.2)));

@@ -142,7 +142,11 @@ test("two surfaces that cross are trimmed at the parts that were clicked, in a c
       await hover(page, top, ({ hover, marked }) => hover === "surface 2" && marked.tinted === 1);
       await page.mouse.click(...top);
       await untilInspect(page, ({ underWay }) => underWay);
-      await hover(page, border, ({ hover, marked }) => hover === "surface 1" && marked.tinted === 2);
+      await drawn(page);
+      const one = await picture(page);
+      await hover(page, border, ({ hover, marked }) => hover === "surface 1" && marked.tinted === 2 && marked.lines === 1);
+      await drawn(page);
+      assert.notDeepEqual((await picture(page)).data, one.data, "the line in which they meet is shown before the click");
       await page.mouse.click(...border);
       const trimmed = await atRest(page, ({ act }) => act === "Trim");
       if (smooth === "true") {

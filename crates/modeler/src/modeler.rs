@@ -11,8 +11,8 @@ use crate::relax::Relaxer;
 use ductile_mesh::Mesh;
 use ductile_mesh::io::obj;
 use ductile_spec::{
-    Committed, Document, Edit, ExportFormat, Exported, FrameHeader, GrabTarget, Grabbed, Refusal, Reply,
-    Request, Resume, Step, SurfaceId, from_fragment, from_text, to_compact_text,
+    Committed, Document, Edit, ExportFormat, Exported, FrameHeader, GrabTarget, Grabbed, Meeting, Refusal,
+    Reply, Request, Resume, Step, SurfaceId, from_fragment, from_text, to_compact_text,
 };
 use glam::DVec3;
 
@@ -43,6 +43,7 @@ struct Outcome {
     committed: Option<String>,
     grabbed: Option<Grabbed>,
     exported: Option<Exported>,
+    meeting: Option<Meeting>,
 }
 
 impl Modeler {
@@ -85,6 +86,7 @@ impl Modeler {
                 reply.committed = outcome.committed.map(|act| self.committed(act));
                 reply.grabbed = outcome.grabbed;
                 reply.exported = outcome.exported;
+                reply.meeting = outcome.meeting;
             }
             Err(error) => reply.refused = Some(Refusal { act: act.to_owned(), reason: error.to_string() }),
         }
@@ -121,6 +123,10 @@ impl Modeler {
             Request::Undo => self.undo(),
             Request::Redo => self.redo(),
             Request::Export(format) => self.export(format),
+            Request::Meet { first, second } => {
+                let lines = operation::meeting(&self.model, first, second)?;
+                Ok(Outcome { meeting: Some(Meeting { first, second, lines }), ..Outcome::default() })
+            }
             Request::Describe => {
                 self.describe = true;
                 Ok(Outcome { committed: Some(String::new()), ..Outcome::default() })
@@ -337,6 +343,7 @@ fn label(request: &Request) -> &'static str {
         Request::Undo => "Undo",
         Request::Redo => "Redo",
         Request::Export(_) => "Export",
+        Request::Meet { .. } => "Meet",
         Request::Describe => "Describe",
     }
 }

@@ -7,7 +7,7 @@
 use crate::edit::{Edit, GrabTarget};
 use crate::example::Example;
 use crate::frame::{FrameHeader, Structure};
-use crate::id::PointId;
+use crate::id::{PointId, SurfaceId};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
@@ -50,6 +50,13 @@ pub enum Request {
     Redo,
     /// Writes the surfaces into a file.
     Export(ExportFormat),
+    /// Asks where two surfaces run through one another, as a trim would cut them. Changes nothing.
+    Meet {
+        /// One surface.
+        first: SurfaceId,
+        /// Another one.
+        second: SurfaceId,
+    },
     /// Asks for the structure and the document anew, for a page that has just connected.
     Describe,
 }
@@ -105,6 +112,8 @@ pub struct Reply {
     pub refused: Option<Refusal>,
     /// A file that was asked for.
     pub exported: Option<Exported>,
+    /// Where two surfaces meet, if that was asked.
+    pub meeting: Option<Meeting>,
 }
 
 /// The document after an act.
@@ -138,6 +147,26 @@ pub struct Refusal {
     pub act: String,
     /// Why it cannot be done and what would help.
     pub reason: String,
+}
+
+/// Where two surfaces run through one another now.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Meeting {
+    /// One surface.
+    pub first: SurfaceId,
+    /// The other.
+    pub second: SurfaceId,
+    /// The lines in which they meet; none if they do not.
+    pub lines: Vec<MeetingLine>,
+}
+
+/// A line in which two surfaces meet.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MeetingLine {
+    /// Places along it, in model units; the first of a closed one is not repeated.
+    pub along: Vec<DVec3>,
+    /// Whether it closes; an open one ends at rims.
+    pub closed: bool,
 }
 
 /// A file for the designer.

@@ -29,6 +29,8 @@ pub enum Answered {
     Release,
     /// A step.
     Step,
+    /// Where two surfaces meet.
+    Meeting,
     /// Anything else.
     Other,
 }
@@ -152,6 +154,7 @@ impl Schedule {
                 self.adapt(if told > 0.0 { told } else { now - since });
                 Answered::Step
             }
+            Request::Meet { .. } => Answered::Meeting,
             Request::Export(_) | Request::Describe => Answered::Other,
         })
     }
@@ -244,6 +247,7 @@ pub fn label(request: &Request) -> &'static str {
         Request::Undo => "Undo",
         Request::Redo => "Redo",
         Request::Export(_) => "Export",
+        Request::Meet { .. } => "Meet",
         Request::Describe => "Describe",
     }
 }

@@ -41,6 +41,7 @@ use std::sync::Arc;
 pub(crate) use insert::insert;
 pub(crate) use pin::pin;
 pub(crate) use ribbon::forget_lost;
+pub(crate) use trim::meeting;
 
 /// Digits of a position that a document keeps, counted from the leading digit of the model's radius.
 /// A millionth of the model is finer than a pixel and keeps links short.

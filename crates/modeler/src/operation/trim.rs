@@ -13,7 +13,7 @@ use crate::surgery::opening::{edges_around, open};
 use crate::surgery::pieces::{Banks, settle};
 use crate::surgery::tracing::Stop;
 use ductile_mesh::{CommonLine, FaceId, SourceTag, intersections, nearest_place};
-use ductile_spec::{CurveId, On, SurfaceId};
+use ductile_spec::{CurveId, MeetingLine, On, SurfaceId};
 use glam::DVec3;
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -72,12 +72,39 @@ pub(super) fn trim(model: &mut Model, first: On, second: On, is_smooth: bool) ->
     Ok(())
 }
 
-/// The closed lines in which two surfaces meet.
-fn lines(model: &Model, one: SurfaceId, other: SurfaceId) -> Result<Vec<CommonLine>, ModelError> {
+/// The lines in which two surfaces meet now: what a trim would cut along, and those that it would refuse.
+///
+/// # Errors
+/// [`ModelError`] if there is no such surface, if both are the same or if it cannot be told.
+pub(crate) fn meeting(
+    model: &Model,
+    one: SurfaceId,
+    other: SurfaceId,
+) -> Result<Vec<MeetingLine>, ModelError> {
+    if one == other {
+        return Err(ModelError::TrimsItself(one));
+    }
+    let told = |line: CommonLine| MeetingLine {
+        along: line.points.iter().map(|point| point.position).collect(),
+        closed: line.is_closed,
+    };
+    Ok(common(model, one, other)?.into_iter().map(told).collect())
+}
+
+/// All lines in which two surfaces meet.
+fn common(model: &Model, one: SurfaceId, other: SurfaceId) -> Result<Vec<CommonLine>, ModelError> {
     let [a, b] = [one, other].map(|id| model.surfaces.get(&id).ok_or(ModelError::NoSurface(id)));
     let (a, b) = (a?, b?);
-    let lines = intersections((&a.mesh, &a.positions), (&b.mesh, &b.positions))
-        .map_err(|why| ModelError::Untold { one, other, why })?;
+    intersections((&a.mesh, &a.positions), (&b.mesh, &b.positions)).map_err(|why| ModelError::Untold {
+        one,
+        other,
+        why,
+    })
+}
+
+/// The closed lines in which two surfaces meet.
+fn lines(model: &Model, one: SurfaceId, other: SurfaceId) -> Result<Vec<CommonLine>, ModelError> {
+    let lines = common(model, one, other)?;
     if lines.is_empty() {
         return Err(ModelError::NoMeeting(one, other));
     }

@@ -373,5 +373,6 @@ impl Page {
             self.hand.hover = self.thing_at(at).filter(|hit| kind.takes(hit, &self.scene.structure));
             self.hand.hover_rim = self.rim_at(at);
         }
+        self.ask_meeting();
     }
 }

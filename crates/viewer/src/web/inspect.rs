@@ -94,8 +94,9 @@ impl Page {
             put(&out, "closed", span.closed);
             put(&out, "role", plain(&span.role));
             put(&out, "samples", span.count);
-            let places = self.scene.samples(span.id).step_by(8).map(|at| self.on_screen(at));
-            put(&out, "screen", places.collect::<Array>());
+            let places = || self.scene.samples(span.id).step_by(8);
+            put(&out, "at", places().map(triple).collect::<Array>());
+            put(&out, "screen", places().map(|at| self.on_screen(at)).collect::<Array>());
             JsValue::from(out)
         });
         curves.collect()

@@ -13,7 +13,7 @@ use crate::limit::Limit;
 use crate::memory::Memory;
 use crate::schedule::Schedule;
 use crate::tool::{Selection, Toolbox};
-use crate::{Camera, Rims, Scene};
+use crate::{Camera, Meetings, Rims, Scene};
 use ductile_spec::{Committed, Document, Request, SurfaceId};
 use glam::Vec3;
 use std::cell::RefCell;
@@ -44,6 +44,8 @@ pub(crate) struct Page {
     pub(crate) hand: Hand,
     /// The rims of the newest structure for which a tool wanted them.
     pub(crate) rims: Rims,
+    /// Where the surfaces meet that a tool points at.
+    pub(crate) meetings: Meetings,
     pub(crate) schedule: Schedule,
     pub(crate) port: Port,
     pub(crate) restarts: Limit,
@@ -107,6 +109,7 @@ pub(crate) fn start() {
         picked: None,
         hand: Hand::default(),
         rims: Rims::default(),
+        meetings: Meetings::default(),
         schedule: Schedule::default(),
         port: Port::default(),
         restarts: Limit::new(MOST_RETRIES, RETRY_MILLISECONDS),

@@ -26,6 +26,7 @@ impl Page {
         let nothing_yet = resume.is_none();
         let lost = self.schedule.worker_died(resume);
         self.hand.forget();
+        self.meetings.forget();
         self.describing = false;
         if nothing_yet && self.schedule.is_at_rest() {
             self.schedule.push(Request::OpenExample(Example::RaisedDisc));
@@ -60,6 +61,12 @@ impl Page {
     pub(crate) fn answered(&mut self, answer: Answer) {
         let Answer { reply, floats, indices } = answer;
         let Some(answered) = self.schedule.answered(&reply, dom::now()) else { return };
+        if answered == Answered::Meeting {
+            // Not to be told is no refusal of anything yet: the act itself will say why.
+            self.meetings.came(reply.meeting);
+        } else {
+            self.meetings.moved();
+        }
         let frame = reply.frame.clone();
         let was_settled = self.scene.header.settled;
         if let Some(structure) = reply.structure {
@@ -75,7 +82,7 @@ impl Page {
         if let Some(grabbed) = reply.grabbed {
             self.grabbed(grabbed);
         }
-        if let Some(refusal) = reply.refused {
+        if let Some(refusal) = reply.refused.filter(|_| answered != Answered::Meeting) {
             self.refused(&answered, &refusal);
         }
         if let Some(committed) = reply.committed {

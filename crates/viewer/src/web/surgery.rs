@@ -136,7 +136,24 @@ impl Page {
         mark.rims = [one, other].into_iter().flatten().collect();
     }
 
-    /// The first place, and the tube to the pointer or the two surfaces that would be trimmed.
+    /// The two surfaces that would be trimmed, once the pointer is on the second.
+    fn trimmed_pair(&self) -> Option<(SurfaceId, SurfaceId)> {
+        let first = self.tools.first_place().filter(|_| self.tools.kind() == ToolKind::Trim)?.surface;
+        match self.hand.hover {
+            Some(Hit::Surface { id, .. }) if id != first => Some((first, id)),
+            _ => None,
+        }
+    }
+
+    /// Asks where they meet, if that is not known.
+    pub(crate) fn ask_meeting(&mut self) {
+        let Some(pair) = self.trimmed_pair() else { return };
+        if let Some(question) = self.meetings.want(pair, self.scene.header.settled) {
+            self.schedule.push(question);
+        }
+    }
+
+    /// The first place, and the tube to the pointer or the two surfaces that would be trimmed with the lines in which they meet.
     pub(crate) fn mark_places(&self, mark: &mut Highlight) {
         mark.tinted.clear();
         let first = self.tools.first_place();
@@ -150,6 +167,7 @@ impl Page {
         if self.tools.kind() == ToolKind::Trim {
             let both = [first, over].into_iter().flatten();
             mark.tinted.extend(both.map(|place| Tinted::Surface(place.surface)));
+            mark.sketch = self.trimmed_pair().map_or(&[][..], |pair| self.meetings.lines(pair)).to_vec();
             return;
         }
         if let Some((from, to)) = first.zip(over) {
