@@ -11,7 +11,10 @@ use crate::region;
 use crate::shape::{CurveShape, EmbeddedCurve, Pin, SurfaceShape};
 use crate::surgery::opening::Opening;
 use crate::surgery::runs::Run;
-use ductile_mesh::{Extracted, FaceId, Labels, Mesh, SourceTag, VertexId, components, regions};
+use ductile_mesh::{
+    Extracted, FaceId, Labels, Mesh, SourceTag, VertexId, components, is_orientable, propagate_orientation,
+    regions,
+};
 use ductile_spec::{Curve, CurveId, PointId, Region, Surface, SurfaceId};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -65,7 +68,11 @@ pub(crate) fn settle(
     model.surfaces.remove(&id);
     for (rank, (piece, _)) in order.into_iter().enumerate() {
         let name = if rank == 0 { id } else { model.document.next_surface() };
-        let part = opening.mesh.extract(|f| labels.of(f) == piece).ok_or(ModelError::Pinched(id))?;
+        let mut part = opening.mesh.extract(|f| labels.of(f) == piece).ok_or(ModelError::Pinched(id))?;
+        // A piece of a surface with one side may have two.
+        if is_orientable(&part.mesh) {
+            propagate_orientation(&mut part.mesh);
+        }
         let shape = shape_of(model, &opening, &part, &followed, &before);
         let mut own = Surface::new(ductile_spec::Skeleton::default());
         (own.spacing, own.density, own.objective) = (surface.spacing, surface.density, surface.objective);
