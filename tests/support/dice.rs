@@ -8,17 +8,55 @@ use ductile_spec::{
 };
 use glam::DVec3;
 
-/// Numbers from a fixed stream (splitmix64).
-#[derive(Debug)]
-pub struct Dice(pub u64);
+/// Numbers to choose by: from a fixed stream, or as somebody's bytes have them.
+#[derive(Clone, Debug)]
+pub struct Dice(Source);
+
+#[derive(Clone, Debug)]
+enum Source {
+    /// splitmix64.
+    Stream(u64),
+    /// As few bytes as a number needs, so that a changed byte changes one choice; zeros after the last.
+    Bytes { bytes: Vec<u8>, at: usize },
+}
 
 impl Dice {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut x = self.0;
-        x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        x ^ (x >> 31)
+    /// The stream of a seed.
+    #[must_use]
+    pub fn seeded(seed: u64) -> Self {
+        Self(Source::Stream(seed))
+    }
+
+    /// What bytes say.
+    #[must_use]
+    pub fn told(bytes: &[u8]) -> Self {
+        Self(Source::Bytes { bytes: bytes.to_vec(), at: 0 })
+    }
+
+    /// Whether there are no bytes left. A stream has no end.
+    #[must_use]
+    pub fn is_spent(&self) -> bool {
+        matches!(&self.0, Source::Bytes { bytes, at } if *at >= bytes.len())
+    }
+
+    /// The next number of so many bits, at most 53; of the stream its highest ones.
+    fn bits(&mut self, bits: u32) -> u64 {
+        match &mut self.0 {
+            Source::Stream(state) => {
+                *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+                let mut x = *state;
+                x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+                x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+                (x ^ (x >> 31)) >> (64 - bits)
+            }
+            Source::Bytes { bytes, at } => {
+                let count = bits.div_ceil(8) as usize;
+                let number = (0..count)
+                    .fold(0, |sum, k| (sum << 8) | u64::from(bytes.get(*at + k).copied().unwrap_or(0)));
+                *at += count;
+                number
+            }
+        }
     }
 
     /// A number below another one, which is not 0.
@@ -26,23 +64,29 @@ impl Dice {
     /// # Panics
     /// When it is 0.
     pub fn below(&mut self, count: usize) -> usize {
-        usize::try_from(self.next() >> 33).expect("31 bits fit") % count
+        let bits = match self.0 {
+            Source::Stream(_) => 31,
+            Source::Bytes { .. } if count <= 1 << 8 => 8,
+            Source::Bytes { .. } => 16,
+        };
+        usize::try_from(self.bits(bits)).expect("31 bits fit") % count
     }
 
     /// A number in [0, 1).
     pub fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1_u64 << 53) as f64
+        let bits = if matches!(self.0, Source::Stream(_)) { 53 } else { 16 };
+        self.bits(bits) as f64 / (1_u64 << bits) as f64
     }
 
-    fn coin(&mut self) -> bool {
+    pub(crate) fn coin(&mut self) -> bool {
         self.below(2) == 0
     }
 
-    fn vector(&mut self) -> DVec3 {
+    pub(crate) fn vector(&mut self) -> DVec3 {
         DVec3::new(self.unit() - 0.5, self.unit() - 0.5, self.unit() - 0.5) * 2.0
     }
 
-    fn pick<T: Copy>(&mut self, among: &[T]) -> Option<T> {
+    pub(crate) fn pick<T: Copy>(&mut self, among: &[T]) -> Option<T> {
         if among.is_empty() { None } else { Some(among[self.below(among.len())]) }
     }
 }
@@ -160,7 +204,7 @@ fn crease(model: &Model) -> Option<CurveId> {
 }
 
 /// A place on a surface or beside it.
-fn place(dice: &mut Dice, model: &Model, shape: Option<&SurfaceShape>) -> DVec3 {
+pub(crate) fn place(dice: &mut Dice, model: &Model, shape: Option<&SurfaceShape>) -> DVec3 {
     let Some(shape) = shape else { return dice.vector() };
     let vertices: Vec<_> = shape.mesh.vertices().collect();
     let at = |v: ductile_mesh::VertexId| shape.positions[v.index()];
