@@ -39,7 +39,6 @@ mod native {
                 Tessellation::new(n, d + 3, 16).unwrap_or_else(|error| unreachable!("small enough: {error}"))
             };
             let own = grid();
-            println!("{name}: {} control points, {} vertices", patch.points().len(), own.vertex_count());
             let mut group = criterion.benchmark_group(name);
             group.bench_function("first build", |bench| {
                 bench.iter_batched(

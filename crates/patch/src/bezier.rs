@@ -1,6 +1,10 @@
 //! Bézier curves over their control points, by the algorithm of de Casteljau (Farin, *Curves and Surfaces for CAGD*,
 //! chapters 4 and 6). Parameters are dimensionless; [0, 1] is the curve, values outside continue it.
 
+mod fit;
+
+pub use fit::{CurveFit, FitError, MOST_FITTED_DEGREE, fit_curve};
+
 use glam::DVec3;
 
 /// The point of a curve at `u`; the origin if there are no control points.

@@ -17,15 +17,20 @@ mod jet;
 mod property_test;
 mod ribbon;
 pub mod s_patch;
+mod seam;
 mod surface_point;
 
 pub use bernstein::{basis, basis_derivative, binomial};
-pub use bezier::{curve_derivative, curve_point, elevated, hodograph};
+pub use bezier::{
+    CurveFit, FitError, MOST_FITTED_DEGREE, curve_derivative, curve_point, elevated, fit_curve, hodograph,
+};
 pub use displacement::{
     Blend, BlendError, BlendFunction, Combination, Direction, DisplacementError, Displacements, Domain, Erbs,
     Item, ItemReport, Laplacian, Placed, Profile, Range, Settings, place,
 };
 pub use ribbon::{
-    Adjusted, MOST_DEGREE, MOST_SIDES, NoNormal, Ribbon, RibbonError, RibbonLoop, made_compatible,
+    Adjusted, MOST_DEGREE, MOST_SIDES, NoNormal, PlaneSample, Planed, Ribbon, RibbonError, RibbonLoop,
+    made_compatible, ribbons_along,
 };
+pub use seam::{Seam, seam};
 pub use surface_point::SurfacePoint;

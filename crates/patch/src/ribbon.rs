@@ -12,8 +12,10 @@
 //! ```
 
 mod compatible;
+mod planes;
 
 pub use compatible::{Adjusted, made_compatible};
+pub use planes::{PlaneSample, Planed, ribbons_along};
 
 use crate::bezier::{curve_derivative, curve_point, elevated};
 use crate::surface_point::unit_normal;
@@ -168,6 +170,14 @@ impl Ribbon {
     #[must_use]
     pub fn normal(&self, u: f64) -> Option<DVec3> {
         unit_normal(self.tangent(u), self.cross(u))
+    }
+
+    /// The ribbon of a neighbour across this side: the same curve the other way, and legs that go on straight. A patch with
+    /// it meets a patch with this one in the same tangent planes.
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        let across = self.row0.iter().zip(&self.row1).map(|(outer, inner)| *outer * 2.0 - *inner);
+        Self { row0: self.row0.iter().rev().copied().collect(), row1: across.rev().collect() }
     }
 
     /// The same boundary and the same cross derivative, one degree higher. Elevating row 1 alone would not keep the cross

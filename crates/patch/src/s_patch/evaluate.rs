@@ -72,4 +72,13 @@ impl SPatch {
         });
         Some(sum)
     }
+
+    /// The surface at `steps + 1` even parameters of a side, ends included, in the direction of the side; empty if the
+    /// domain is another one.
+    #[must_use]
+    pub fn along_side(&self, domain: &Domain, side: usize, steps: usize) -> Vec<SurfacePoint> {
+        let steps = steps.max(1);
+        let places = (0..=steps).map(|step| domain.on_side(side, step as f64 / steps as f64));
+        places.filter_map(|place| self.at(domain, place)).collect()
+    }
 }

@@ -260,8 +260,9 @@ fn a_square_is_a_tensor_product() {
     for (label, point) in labels.iter().zip(patch.points()) {
         let s: Vec<i64> = label.iter().map(|&entry| i64::from(entry)).collect();
         let (a, b) = (s[1] + s[2], s[2] + s[3]);
+        let at = usize::from(label[1] + label[2]) * 7 + usize::from(label[2] + label[3]);
         let multinomial = binomial(depth, s[0]) * binomial(depth - s[0], s[1]) * binomial(s[2] + s[3], s[2]);
-        net[(a * 7 + b) as usize] += *point * (multinomial / (binomial(depth, a) * binomial(depth, b)));
+        net[at] += *point * (multinomial / (binomial(depth, a) * binomial(depth, b)));
     }
     for (u, v) in [(0.0, 0.0), (0.3, 0.6), (1.0, 0.2), (0.5, 0.5)] {
         let corners = domain.corners();
@@ -387,5 +388,43 @@ fn size_and_place_do_not_matter() {
             let turn = angle(one.normal().unwrap(), other.normal().unwrap());
             assert!(turn < 1e-12 + 1e-15 * offset * 10.0, "{size} {offset}: {turn:e}");
         }
+    }
+}
+
+/// Ribbons beyond side 0 of a loop: that side mirrored, and a random way round.
+fn beyond(ring: &RibbonLoop, seed: u64) -> RibbonLoop {
+    let (n, d) = (ring.sides(), ring.degree());
+    let shared = ring.ribbons()[0].mirrored();
+    let mut ribbons = random_loop(n, d, seed).ribbons().to_vec();
+    for ribbon in &mut ribbons {
+        ribbon.row0.iter_mut().chain(&mut ribbon.row1).for_each(|p| p.x += 4.0);
+    }
+    ribbons[0] = shared.clone();
+    // The neighbours begin and end as the mirrored side asks.
+    let (after, before) = (1, n - 1);
+    (ribbons[after].row0[0], ribbons[after].row0[1]) = (shared.row0[d], shared.row1[d]);
+    (ribbons[after].row1[0], ribbons[after].row1[1]) = (shared.row0[d - 1], shared.row1[d - 1]);
+    (ribbons[before].row0[d], ribbons[before].row0[d - 1]) = (shared.row0[0], shared.row1[0]);
+    (ribbons[before].row1[d], ribbons[before].row1[d - 1]) = (shared.row0[1], shared.row1[1]);
+    crate::made_compatible(&ribbons).unwrap().ribbons
+}
+
+#[test]
+fn neighbours_with_mirrored_ribbons_join_smoothly() {
+    for (n, d) in [(3, 4), (5, 3), (6, 5)] {
+        let ring = random_loop(n, d, 41);
+        let other = beyond(&ring, 42);
+        let [here, there] = [&ring, &other].map(|ring| filled(ring, Join::Tangent, Fill::Biharmonic));
+        let domain = Domain::new(n);
+        let mut far = there.along_side(&domain, 0, 20);
+        far.reverse();
+        let found = crate::seam(&here.along_side(&domain, 0, 20), &far).unwrap();
+        assert!(found.gap < 1e-13 && found.angle < 1e-11, "{n} sides, degree {d}: {found:?}");
+        // Meeting curves only, they do not.
+        let [here, there] = [&ring, &other].map(|ring| filled(ring, Join::Position, Fill::Harmonic));
+        let mut far = there.along_side(&domain, 0, 20);
+        far.reverse();
+        let found = crate::seam(&here.along_side(&domain, 0, 20), &far).unwrap();
+        assert!(found.gap < 1e-13 && found.angle > 1e-2, "{n} sides, degree {d}: {found:?}");
     }
 }
