@@ -6,8 +6,10 @@ mod weld;
 
 use crate::input::{self, CliError};
 use clap::ValueEnum;
-use ductile_patch::s_patch::{BuildError, Fill, Join, MaskCache, SPatch, Tessellation, TessellationError};
-use ductile_patch::{NoNormal, RibbonError, RibbonLoop, made_compatible};
+use ductile_patch::s_patch::{
+    BuildError, Domain, Fill, Join, MaskCache, SPatch, Tessellation, TessellationError,
+};
+use ductile_patch::{NoNormal, RibbonError, RibbonLoop, Seam, made_compatible, seam};
 use request::Request;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -102,9 +104,31 @@ struct Report {
     patches: Vec<About>,
     #[serde(skip_serializing_if = "Option::is_none")]
     mesh: Option<weld::Counts>,
+    /// How well patches meet along the sides that they share.
+    seams: Vec<SeamReport>,
     #[serde(skip_serializing_if = "Option::is_none")]
     samples: Option<Vec<samples::Sample>>,
 }
+
+/// The worst of a seam, at 65 places.
+#[derive(Serialize)]
+struct SeamReport {
+    patch: usize,
+    side: usize,
+    other_patch: usize,
+    other_side: usize,
+    /// In model units.
+    gap: f64,
+    /// Between the tangent planes, in radians.
+    angle: f64,
+    /// Of the mean curvature, per model unit.
+    curvature_jump: f64,
+    /// How many of the places have no normal on one side.
+    without_normal: usize,
+}
+
+/// Places along a seam.
+const SEAM_STEPS: usize = 64;
 
 /// Fills, writes, prints.
 pub(crate) fn run(options: &Options) -> Result<ExitCode, CliError> {
@@ -126,17 +150,16 @@ pub(crate) fn run(options: &Options) -> Result<ExitCode, CliError> {
         patches.push(patch);
     }
     let samples = places.map(|places| samples::evaluate(&places, &patches)).transpose()?;
-    let mesh = match &options.out {
-        None => None,
-        Some(out) => {
-            let mesh = mesh(options, &patches)?;
-            input::write(out, &mesh.to_obj())?;
-            Some(mesh.counts())
-        }
-    };
+    let (mut counts, mut seams) = (None, Vec::new());
+    if let Some(out) = &options.out {
+        let mesh = mesh(options, &patches)?;
+        input::write(out, &mesh.to_obj())?;
+        counts = Some(mesh.counts());
+        seams = mesh.sewn.iter().filter_map(|sewn| seam_of(sewn, &patches)).collect();
+    }
     if options.json {
-        let report =
-            Report { patches: patches.into_iter().map(|patch| patch.about).collect(), mesh, samples };
+        let patches = patches.into_iter().map(|patch| patch.about).collect();
+        let report = Report { patches, mesh: counts, seams, samples };
         let text = serde_json::to_string_pretty(&report).map_err(|e| CliError::Option(e.to_string()))?;
         input::write("-".as_ref(), &(text + "\n"))?;
     } else if let Some(samples) = samples {
@@ -222,4 +245,18 @@ fn mesh(options: &Options, patches: &[Patch]) -> Result<weld::Welded, CliError> 
         pieces.push(weld::Piece::new(&grids[at], patch.sides(), found));
     }
     Ok(weld::weld(pieces))
+}
+
+fn seam_of(sewn: &weld::Sewn, patches: &[Patch]) -> Option<SeamReport> {
+    let [(patch, side), (other_patch, other_side)] = sewn.sides;
+    let along = |patch: usize, side: usize| {
+        let patch = &patches[patch].patch;
+        patch.along_side(&Domain::new(patch.sides()), side, SEAM_STEPS)
+    };
+    let (one, mut other) = (along(patch, side), along(other_patch, other_side));
+    if sewn.is_reversed {
+        other.reverse();
+    }
+    let Seam { gap, angle, curvature_jump, without_normal, .. } = seam(&one, &other)?;
+    Some(SeamReport { patch, side, other_patch, other_side, gap, angle, curvature_jump, without_normal })
 }

@@ -136,6 +136,15 @@ fn patches_that_share_sides_are_sewn() {
     let arguments = ["fill", &file, "-o", out.to_str().unwrap(), "--resolution", "4", "--json"];
     let report = json_of(&ductile(&arguments));
     assert_eq!(report["mesh"]["sewn_sides"], 4);
+    // The squares are parts of one graph of control points: smooth across where its legs go on straight.
+    let seams = report["seams"].as_array().unwrap();
+    let named = |name: &str| seams.iter().map(|seam| seam[name].as_u64().unwrap()).collect::<Vec<_>>();
+    assert_eq!([named("patch"), named("other_patch")], [vec![0, 0, 1, 2], vec![1, 2, 3, 3]]);
+    assert_eq!([named("side"), named("other_side")], [vec![1, 2, 2, 1], vec![3, 0, 0, 3]]);
+    for seam in seams {
+        assert!(seam["gap"].as_f64().unwrap() < 1e-13, "{seam}");
+        assert!((0.0..0.1).contains(&seam["angle"].as_f64().unwrap()), "{seam}");
+    }
     let text = fs::read_to_string(&out).unwrap();
     let (mesh, positions) = ductile_mesh::io::obj::read_mesh(&text).unwrap();
     // One disc: no vertex is there twice.

@@ -17,13 +17,27 @@ pub(super) struct Piece {
     sides: Vec<Vec<usize>>,
 }
 
+/// A side of a piece among all vertices.
+struct Rim {
+    patch: usize,
+    side: usize,
+    vertices: Vec<usize>,
+}
+
+/// Two sides that are one, each by patch and side.
+pub(super) struct Sewn {
+    pub(super) sides: [(usize, usize); 2],
+    /// Whether they run in opposite directions, as they do where patches face the same way.
+    pub(super) is_reversed: bool,
+}
+
 /// All patches as one mesh.
 pub(super) struct Welded {
     pieces: Vec<Piece>,
     /// For each vertex of each piece, one after the other, its number in the mesh.
     names: Vec<usize>,
     positions: Vec<DVec3>,
-    sewn: usize,
+    pub(super) sewn: Vec<Sewn>,
 }
 
 /// How much there is in a mesh.
@@ -58,40 +72,53 @@ pub(super) fn weld(pieces: Vec<Piece>) -> Welded {
     let low = all.iter().fold(DVec3::INFINITY, |low, p| low.min(*p));
     let high = all.iter().fold(DVec3::NEG_INFINITY, |high, p| high.max(*p));
     let close = CLOSE * (high - low).length();
-    let sides: Vec<(usize, Vec<usize>)> = pieces
+    let sides: Vec<Rim> = pieces
         .iter()
         .zip(&starts)
         .enumerate()
-        .flat_map(|(at, (piece, start))| {
-            piece.sides.iter().map(move |side| (at, side.iter().map(|vertex| start + vertex).collect()))
+        .flat_map(|(patch, (piece, start))| {
+            piece.sides.iter().enumerate().map(move |(side, vertices)| Rim {
+                patch,
+                side,
+                vertices: vertices.iter().map(|vertex| start + vertex).collect(),
+            })
         })
         .collect();
     // Each vertex points to an earlier one that it is sewn to, or to itself.
     let mut same: Vec<usize> = (0..all.len()).collect();
-    let mut sewn = 0;
+    let mut sewn = Vec::new();
     let mut by_middle: Vec<(f64, usize)> =
-        sides.iter().enumerate().map(|(at, (_, side))| (middle(&all, side), at)).collect();
+        sides.iter().enumerate().map(|(at, rim)| (middle(&all, &rim.vertices), at)).collect();
     by_middle.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     for (at, &(key, one)) in by_middle.iter().enumerate() {
         for &(_, other) in by_middle[at + 1..].iter().take_while(|(next, _)| *next - key <= close) {
-            let ((piece, side), (other_piece, other_side)) = (&sides[one], &sides[other]);
+            let (one, other) = (&sides[one.min(other)], &sides[one.max(other)]);
             let meets = |(a, b): (&usize, &usize)| all[*a].distance(all[*b]) <= close;
-            if piece == other_piece {
+            let (own, there) = (&one.vertices, &other.vertices);
+            if one.patch == other.patch {
                 continue;
             }
-            if side.iter().zip(other_side.iter().rev()).all(meets) {
-                side.iter().zip(other_side.iter().rev()).for_each(|(a, b)| join(&mut same, *a, *b));
-            } else if side.iter().zip(other_side).all(meets) {
-                side.iter().zip(other_side).for_each(|(a, b)| join(&mut same, *a, *b));
+            let is_reversed = own.iter().zip(there.iter().rev()).all(meets);
+            if is_reversed {
+                own.iter().zip(there.iter().rev()).for_each(|(a, b)| join(&mut same, *a, *b));
+            } else if own.iter().zip(there).all(meets) {
+                own.iter().zip(there).for_each(|(a, b)| join(&mut same, *a, *b));
             } else {
                 continue;
             }
-            sewn += 1;
+            sewn.push(Sewn { sides: [one, other].map(|rim| (rim.patch, rim.side)), is_reversed });
         }
     }
+    sewn.sort_by_key(|sewn| sewn.sides);
+    let (names, positions) = renumbered(&all, &same);
+    Welded { pieces, names, positions, sewn }
+}
+
+/// The vertices that are sewn to no earlier one, and for each vertex the number of the one that stands for it.
+fn renumbered(all: &[DVec3], same: &[usize]) -> (Vec<usize>, Vec<DVec3>) {
     let (mut names, mut positions) = (vec![0; all.len()], Vec::new());
     for vertex in 0..all.len() {
-        let first = root(&same, vertex);
+        let first = root(same, vertex);
         if first == vertex {
             names[vertex] = positions.len();
             positions.push(all[vertex]);
@@ -99,13 +126,13 @@ pub(super) fn weld(pieces: Vec<Piece>) -> Welded {
             names[vertex] = names[first];
         }
     }
-    Welded { pieces, names, positions, sewn }
+    (names, positions)
 }
 
-/// One coordinate of the middle of a side: sides whose middles differ in it are different.
+/// How far the middle of a side lies in a direction that no model has: sides of which this differs are different.
 fn middle(all: &[DVec3], side: &[usize]) -> f64 {
     let (first, last) = (all[side[(side.len() - 1) / 2]], all[side[side.len() / 2]]);
-    0.5 * (first.x + last.x)
+    (0.5 * (first + last)).dot(DVec3::new(0.359_127, 0.674_313, 0.645_219))
 }
 
 fn root(same: &[usize], mut vertex: usize) -> usize {
@@ -126,7 +153,7 @@ impl Welded {
         Counts {
             vertices: self.positions.len(),
             triangles: self.pieces.iter().map(|piece| piece.triangles.len()).sum(),
-            sewn_sides: self.sewn,
+            sewn_sides: self.sewn.len(),
         }
     }
 

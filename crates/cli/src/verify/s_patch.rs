@@ -93,10 +93,10 @@ pub(crate) fn check(file: &Fields<'_>, report: &mut Report) -> Result<(), Flaw> 
 
 /// What a file says of itself in words; numbers there would be results without a rule.
 fn check_prose(file: &Fields<'_>, report: &mut Report) -> Result<(), Flaw> {
-    if let Some(item) = file.get("schema") {
-        if !item.text()?.starts_with("s-patch-") {
-            report.pass_over(&item.place, "no such kind of file is known");
-        }
+    if let Some(item) = file.get("schema")
+        && !item.text()?.starts_with("s-patch-")
+    {
+        report.pass_over(&item.place, "no such kind of file is known");
     }
     if let Some(item) = file.get("conventions") {
         item.fields()?.finish(report);
