@@ -4,6 +4,7 @@
 //! is not verified, 2 when the input or the command is bad.
 //! Results go to standard output or files, everything else to standard error.
 
+mod cage;
 mod check;
 mod displace;
 mod fill;
@@ -38,6 +39,8 @@ enum Command {
     },
     /// Do the acts of a script and write the document, the mesh or a report
     Run(run::Options),
+    /// Lay a smooth surface over a cage of polygons and write the mesh
+    Cage(cage::Options),
     /// Fill holes between ribbons with S-patches and write the mesh
     Fill(fill::Options),
     /// Move points and curves of a mesh, and the surface around them smoothly
@@ -65,6 +68,7 @@ fn main() -> ExitCode {
         Command::Solve(options) => solve::run(&options),
         Command::Run(options) => run::run(&options),
         Command::Check { file } => check::run(&file).map(|()| ExitCode::SUCCESS),
+        Command::Cage(options) => cage::run(&options),
         Command::Fill(options) => fill::run(&options),
         Command::Displace(options) => displace::run(&options),
         Command::Link { spec, base } => link::link(&spec, &base).map(|()| ExitCode::SUCCESS),

@@ -3,11 +3,11 @@
 //! What a case does not say is what the paper says: rational map, Hermite blend of order 2, a linear split where one is needed, and
 //! the linear rule at a boundary.
 
-use super::param_map::map_named;
 use super::reader::{Fields, Flaw, Item};
 use super::report::{Report, Tolerance};
+use super::rules::{blend_named, boundary_named, map_named, split_named};
 use super::tolerances::{self, Stated};
-use ductile_patch::cage::{Blend, Boundary, Cage, CageSurface, Map, Settings, Split};
+use ductile_patch::cage::{Blend, Boundary, Cage, CageSurface, Map, Settings};
 use glam::DVec3;
 
 const STATED: [Stated; 2] = [
@@ -110,41 +110,6 @@ fn choice<T>(
         report.pass_over(&item.place, &format!("no {name} of that name is known"));
     }
     Ok(found)
-}
-
-/// `hermite k=2`, `bump k=1`, `erbs`; a colon may stand for ` k=`, and a bump without a number is that of exponent 1.
-pub(crate) fn blend_named(name: &str) -> Option<Blend> {
-    let (kind, order) = match name.split_once([' ', ':']) {
-        None => (name, None),
-        Some((kind, order)) => {
-            let order = order.trim();
-            (kind, Some(order.strip_prefix("k=").unwrap_or(order).trim().parse().ok()?))
-        }
-    };
-    match (kind, order) {
-        ("hermite", order) => Some(Blend::Hermite(order.unwrap_or(2))),
-        ("bump", order) => Some(Blend::Bump(order.unwrap_or(1))),
-        ("erbs" | "expo-rational", None) => Some(Blend::Erbs),
-        _ => None,
-    }
-}
-
-pub(crate) fn split_named(name: &str) -> Option<Split> {
-    match name {
-        "none" => Some(Split::None),
-        "linear" => Some(Split::Linear),
-        "offset" => Some(Split::Offset),
-        "catmull-clark" => Some(Split::CatmullClark),
-        _ => None,
-    }
-}
-
-pub(crate) fn boundary_named(name: &str) -> Option<Boundary> {
-    match name {
-        "linear" => Some(Boundary::Linear),
-        "borrow" => Some(Boundary::Borrow),
-        _ => None,
-    }
 }
 
 fn check_quads(

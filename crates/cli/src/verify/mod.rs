@@ -17,6 +17,7 @@ mod param_map;
 pub(crate) mod reader;
 pub(crate) mod report;
 mod rest;
+pub(crate) mod rules;
 mod s_patch;
 mod smooth;
 mod tolerances;

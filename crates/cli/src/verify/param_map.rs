@@ -2,22 +2,14 @@
 
 use super::reader::{Fields, Flaw, Item};
 use super::report::{Report, Tolerance};
+use super::rules::map_named;
 use super::tolerances::{self, Stated};
-use ductile_patch::cage::{KitePoint, MOST_VALENCE, Map, kite};
+use ductile_patch::cage::{KitePoint, MOST_VALENCE, kite};
 
 const STATED: [Stated; 2] = [
     Stated { name: "value", default: 1e-13, most: 1e-6 },
     Stated { name: "derivative", default: 1e-11, most: 1e-5 },
 ];
-
-/// The map of that name.
-pub(crate) fn map_named(name: &str) -> Option<Map> {
-    match name {
-        "rational" => Some(Map::Rational),
-        "smooth" => Some(Map::Smooth),
-        _ => None,
-    }
-}
 
 /// What a column holds.
 #[derive(Clone, Copy, PartialEq)]
