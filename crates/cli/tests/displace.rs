@@ -164,7 +164,7 @@ fn all_that_the_format_says_is_obeyed() {
 }
 
 #[test]
-fn what_is_wrong_is_named() {
+fn what_is_wrong_with_the_edits_is_named() {
     let foot = |foot: Value| json!({"feet": [foot]});
     let refusals = [
         (foot(json!({"vertex": 82})), "feet[0]: there is no vertex 82: there are 82"),
@@ -210,6 +210,10 @@ fn what_is_wrong_is_named() {
         "{}",
         text.said
     );
+}
+
+#[test]
+fn what_is_wrong_with_the_mesh_is_named() {
     let closed = run(&tetrahedron(), &json!([{"vertex": 3}]));
     assert!(closed.status == 2 && closed.said.contains("neither boundary nor pin"), "{}", closed.said);
     for (mesh, says) in [

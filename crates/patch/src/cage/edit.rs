@@ -168,9 +168,11 @@ pub fn split_face_at_centre(cage: &Cage, face: u32) -> Result<Cage, EditError> {
     let sum: DVec3 = corners.iter().map(|&vertex| positions[vertex as usize]).sum();
     let centre = name(positions.len());
     positions.push(sum / corners.len() as f64);
-    let triangle = |k: usize| vec![corners[k], corners[(k + 1) % corners.len()], centre];
-    faces[face as usize] = triangle(0);
-    faces.extend((1..corners.len()).map(triangle));
+    let nexts = corners.iter().cycle().skip(1);
+    let mut triangles = corners.iter().zip(nexts).map(|(a, b)| vec![*a, *b, centre]);
+    let own = triangles.next();
+    faces.extend(triangles);
+    faces.splice(face as usize..=face as usize, own);
     Ok(Cage::new(positions, faces)?)
 }
 
