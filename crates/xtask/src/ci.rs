@@ -23,7 +23,7 @@ pub(crate) fn run() -> Result<(), String> {
     });
     tally += check("lints for the browser", || {
         let what = ["clippy", "--target", "wasm32-unknown-unknown"];
-        let members = ["spec", "mesh", "solver", "modeler", "worker", "viewer"];
+        let members = ["spec", "mesh", "solver", "patch", "modeler", "worker", "viewer"];
         let members = members.map(|member| format!("--package=ductile-{member}"));
         let how = ["--all-targets", "--locked", "--", "-D", "warnings"];
         Run::cargo().args(what).args(members).args(how).attached()

@@ -92,6 +92,35 @@ fn parity_holds(closed: &Shape, other: &Shape, lines: &[CommonLine], side: usize
     }
 }
 
+/// A plane cuts a ball in a circle, and laid on the ball the circle parts it.
+fn cut_a_ball(turn: DVec3, height: f64) {
+    let ball = primitive::icosphere(4);
+    let (sheet, flat) = primitive::plane(20, 20, 0.2);
+    let centred: Vec<_> = flat.iter().map(|p| *p - DVec3::new(2.0, 2.0, height)).collect();
+    let plane = moved(&(sheet, centred), turn, DVec3::ZERO);
+    let lines = lines(&ball, &plane).unwrap();
+    assert!(lines.len() == 1 && lines[0].is_closed);
+    let axis = moved(&(Mesh::default(), vec![DVec3::Z]), turn, DVec3::ZERO).1[0];
+    for point in &lines[0].points {
+        assert!((point.position.dot(axis) + height).abs() < 1e-8);
+        // Facets lie at most 0.3 % inside the ball.
+        let radius = point.position.length();
+        assert!((0.997..1.0 + 1e-8).contains(&radius), "{}", radius);
+    }
+    // Laid on the ball the line parts it.
+    let (mut mesh, positions) = ball;
+    let path = mesh.lay_path(&lines[0].places_on(0), true, &positions).unwrap();
+    mesh.cut(&path.edges);
+    assert_eq!((crate::validate(&mesh), crate::components(&mesh).count()), (Ok(()), 2));
+}
+
+/// Two points of the line lie near one vertex here, and a third between them does not.
+#[test]
+fn a_line_that_runs_by_a_vertex_is_laid_there_too() {
+    let turn = DVec3::new(-2.8434522129758246, 0.8148229869666902, -1.367773354632456);
+    cut_a_ball(turn, -0.5195801874269574);
+}
+
 proptest! {
     #![proptest_config(cases(128, 16))]
 
@@ -130,25 +159,7 @@ proptest! {
         turn in (-3.0..3.0, -3.0..3.0, -3.0..3.0),
         height in -0.9..0.9,
     ) {
-        let ball = primitive::icosphere(4);
-        let (sheet, flat) = primitive::plane(20, 20, 0.2);
-        let centred: Vec<_> = flat.iter().map(|p| *p - DVec3::new(2.0, 2.0, height)).collect();
-        let turn = DVec3::from(turn);
-        let plane = moved(&(sheet, centred), turn, DVec3::ZERO);
-        let lines = lines(&ball, &plane).unwrap();
-        prop_assert!(lines.len() == 1 && lines[0].is_closed);
-        let axis = moved(&(Mesh::default(), vec![DVec3::Z]), turn, DVec3::ZERO).1[0];
-        for point in &lines[0].points {
-            prop_assert!((point.position.dot(axis) + height).abs() < 1e-8);
-            // Facets lie at most 0.3 % inside the ball.
-            let radius = point.position.length();
-            prop_assert!((0.997..1.0 + 1e-8).contains(&radius), "{}", radius);
-        }
-        // Laid on the ball the line parts it.
-        let (mut mesh, positions) = ball;
-        let path = mesh.lay_path(&lines[0].places_on(0), true, &positions).unwrap();
-        mesh.cut(&path.edges);
-        prop_assert_eq!((crate::validate(&mesh), crate::components(&mesh).count()), (Ok(()), 2));
+        cut_a_ball(DVec3::from(turn), height);
     }
 
     #[test]

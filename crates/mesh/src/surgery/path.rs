@@ -16,7 +16,9 @@ use crate::{EdgeId, Mesh, Place, VertexId};
 
 /// Places nearer than this to a vertex, as a share of the edge, are at the vertex; nearer to an edge, as a share of the
 /// triangle's height, on the edge. Splitting there would leave a needle.
-pub(super) const SNAP: f64 = 0.05;
+const SNAP: f64 = 0.05;
+/// The same where places stand so densely that a path would touch itself: a needle is better than no path.
+const FINE_SNAP: f64 = 1e-3;
 
 /// A line that comes nearer than this to a vertex of its own path touches it; one between this and [`SNAP`] passes beside.
 const TOUCH: f64 = 1e-3;
@@ -81,7 +83,7 @@ impl Mesh {
         is_closed: bool,
         positions: &[DVec3],
     ) -> Result<Path, PathError> {
-        Layer::lay(self, places, is_closed, positions).map(|(_, path)| path)
+        Layer::lay_apart(self, places, is_closed, positions).map(|(_, path)| path)
     }
 
     /// Makes a chain of edges through the places, in order; on a closed path from the last back to the first.
@@ -112,7 +114,7 @@ impl Mesh {
         is_closed: bool,
         positions: &[DVec3],
     ) -> Result<Path, PathError> {
-        let (mesh, path) = Layer::lay(self, places, is_closed, positions)?;
+        let (mesh, path) = Layer::lay_apart(self, places, is_closed, positions)?;
         *self = mesh;
         Ok(path)
     }
@@ -140,16 +142,31 @@ struct Layer {
 }
 
 impl Layer {
-    fn lay(
+    /// Lays the path. Where places stand so densely that some would become one vertex though others lie between them, they
+    /// are told apart more finely.
+    fn lay_apart(
         mesh: &Mesh,
         places: &[Place],
         is_closed: bool,
         positions: &[DVec3],
     ) -> Result<(Mesh, Path), PathError> {
+        let laid = Self::lay(mesh, places, is_closed, (positions, SNAP));
+        if !matches!(laid, Err(PathError::TouchesItself(..))) {
+            return laid;
+        }
+        Self::lay(mesh, places, is_closed, (positions, FINE_SNAP)).or(laid)
+    }
+
+    fn lay(
+        mesh: &Mesh,
+        places: &[Place],
+        is_closed: bool,
+        (positions, snap): (&[DVec3], f64),
+    ) -> Result<(Mesh, Path), PathError> {
         if let Some(index) = places.iter().position(|place| !place.is_on(mesh)) {
             return Err(PathError::NoPlace(index));
         }
-        let mut sites = Sites::new(mesh, positions);
+        let mut sites = Sites::new(mesh, positions, snap);
         let at: Vec<VertexId> = places.iter().map(|place| sites.settle(mesh, *place)).collect();
         let mut layer = Self {
             sites,

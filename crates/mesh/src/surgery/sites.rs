@@ -8,7 +8,6 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-use super::path::SNAP;
 use crate::{EdgeId, FaceId, Mesh, Place, VertexId, Wedge};
 
 /// Nearer than this to a side of a part of a triangle, as a share of its height, a place is on the side.
@@ -22,13 +21,15 @@ pub(super) struct Sites {
     born: BTreeMap<VertexId, Option<Place>>,
     /// The old face of every face; those without an entry are their own.
     part_of: BTreeMap<FaceId, FaceId>,
+    /// Nearer than this, as a share of an edge or a triangle, places are one.
+    snap: f64,
 }
 
 impl Sites {
-    pub(super) fn new(mesh: &Mesh, positions: &[DVec3]) -> Self {
+    pub(super) fn new(mesh: &Mesh, positions: &[DVec3], snap: f64) -> Self {
         let mut positions = positions.to_vec();
         positions.resize(mesh.vertex_slots(), DVec3::ZERO);
-        Self { mesh: mesh.clone(), positions, born: BTreeMap::new(), part_of: BTreeMap::new() }
+        Self { mesh: mesh.clone(), positions, born: BTreeMap::new(), part_of: BTreeMap::new(), snap }
     }
 
     pub(super) fn at(&self, v: VertexId) -> DVec3 {
@@ -60,7 +61,7 @@ impl Sites {
 
     /// The vertex at a place of the old mesh, made if there is none. All places come before the first [`Sites::split`].
     pub(super) fn settle(&mut self, old: &Mesh, place: Place) -> VertexId {
-        let place = place.snapped(old, SNAP);
+        let place = place.snapped(old, self.snap);
         let position = place.position(old, &self.positions).unwrap_or(DVec3::ZERO);
         let (vertex, is_new) = match place {
             Place::Vertex(v) => (v, false),
@@ -138,7 +139,7 @@ impl Sites {
             }
         }
         stations.sort_by(|one, other| one.0.total_cmp(&other.0));
-        if let Some(&(_, v)) = stations.iter().find(|(there, _)| (there - at).abs() < SNAP) {
+        if let Some(&(_, v)) = stations.iter().find(|(there, _)| (there - at).abs() < self.snap) {
             return (v, false);
         }
         let between = stations.windows(2).find(|pair| (pair[0].0..pair[1].0).contains(&at));
@@ -160,7 +161,7 @@ impl Sites {
         let (least, part, inner) = best;
         for v in self.mesh.face_vertices(part) {
             let there = self.weights_in(old, face, v);
-            if (0..3).all(|k| (there[k] - weights[k]).abs() < SNAP) {
+            if (0..3).all(|k| (there[k] - weights[k]).abs() < self.snap) {
                 return (v, false);
             }
         }
@@ -171,7 +172,7 @@ impl Sites {
             .edge_faces(side)
             .1
             .is_some_and(|g| self.whole(g) == face && self.whole(self.mesh.edge_faces(side).0) == face);
-        if least < ON_SIDE && is_inner {
+        if least < ON_SIDE.min(self.snap) && is_inner {
             return (self.split_edge(side), true);
         }
         let v = self.mesh.split_face(part);
