@@ -95,6 +95,21 @@ fn cancel_puts_everything_back_to_the_bit() {
     assert_eq!(bench.document, document);
 }
 
+/// What a hand holds is not committed, so undo must not lead there.
+#[test]
+fn undo_after_opening_in_the_middle_of_a_drag_leads_to_where_the_drag_began() {
+    let mut bench = Bench::with(Example::RaisedDisc);
+    bench.rest(600);
+    let before = bench.document.clone();
+    bench.accept(Request::Grab(GrabTarget::Point(PointId(1))));
+    for step in 1..=5 {
+        bench.step(Some(dvec3(1.0, 0.0, 0.1 * f64::from(step))));
+    }
+    bench.accept(Request::OpenExample(Example::Ball));
+    bench.accept(Request::Undo);
+    assert_eq!(bench.document, before);
+}
+
 #[test]
 fn a_click_without_a_drag_changes_nothing() {
     let mut bench = Bench::with(Example::Saddle);

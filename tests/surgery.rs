@@ -270,6 +270,69 @@ fn a_reversed_surface_is_the_same_shape_with_the_other_side_out() {
 }
 
 #[test]
+fn an_outside_is_propagated_to_all_surfaces_that_meet() {
+    let mut bench = Bench::with(ductile_spec::Example::Cylinder);
+    for boundary in [1, 2] {
+        bench.edit(Edit::Sheet { boundary: CurveId(boundary) });
+    }
+    bench.rest(600);
+    // Round a closed shape whose outside is one, the cones from the origin add up to its volume.
+    let volume = |bench: &Bench| -> f64 {
+        let of = |shape: &ductile_modeler::SurfaceShape| -> f64 {
+            let corners =
+                shape.mesh.faces().map(|f| shape.mesh.face_vertices(f).map(|v| shape.positions[v.index()]));
+            corners.map(|[a, b, c]| a.dot(b.cross(c)) / 6.0).sum()
+        };
+        bench.modeler.model().surfaces.values().map(|shape| of(shape)).sum()
+    };
+    let ids: Vec<SurfaceId> = bench.modeler.model().surfaces.keys().copied().collect();
+    assert_eq!(ids.len(), 3);
+    // However they are turned, they agree with the one that is asked.
+    let mut seen = Vec::new();
+    for turned in 0..8_u32 {
+        let before = bench.document.clone();
+        for (k, surface) in ids.iter().copied().enumerate() {
+            if turned & (1 << k) != 0 {
+                bench.edit(Edit::Reverse { surface });
+            }
+        }
+        let edit = Edit::Propagate { surface: ids[0] };
+        let is_done = bench.modeler.handle(Request::Edit(edit.clone())).refused.is_none();
+        seen.push((is_done, volume(&bench)));
+        let why = refusal(&mut bench, edit);
+        assert!(why.contains("already"), "{why}");
+        bench.accept(Request::OpenText { text: before });
+        bench.rest(600);
+    }
+    let largest = seen.iter().map(|(_, volume)| volume.abs()).fold(0.0, f64::max);
+    assert!(largest > 1.0, "{seen:?}");
+    // All of them alike, once as they are and once inside out, needs no turn.
+    assert_eq!(seen.iter().filter(|(is_done, _)| !is_done).count(), 2, "{seen:?}");
+    for (k, (_, volume)) in seen.iter().enumerate() {
+        assert!((volume.abs() / largest - 1.0).abs() < 0.05, "{k}: {seen:?}");
+        assert_eq!(*volume > 0.0, (seen[0].1 > 0.0) ^ (k % 2 == 1), "the first stays as it was: {seen:?}");
+    }
+}
+
+#[test]
+fn three_strips_that_make_up_a_moebius_strip_have_no_outside_in_common() {
+    let mut bench = Bench::new();
+    for k in 0..3 {
+        let (sin, cos) = libm::sincos(f64::from(k) * core::f64::consts::TAU / 3.0);
+        let ends = [0.7, 1.0, 1.3].map(|r| dvec3(r * cos, r * sin, 0.1 * f64::from(k)));
+        let through = ends.into_iter().map(ductile_spec::Through::Place).collect();
+        bench.edit(Edit::Curve { through, closed: false });
+    }
+    // A third of a turn apart the shorter strip is the one that crosses over: three of them are one half twist too many.
+    for (from, to) in [(1, 2), (2, 3), (3, 1)] {
+        bench.edit(Edit::Sweep { from: CurveId(from), to: CurveId(to), reversed: false });
+    }
+    assert_eq!(bench.document().surfaces.len(), 3);
+    let why = refusal(&mut bench, Edit::Propagate { surface: SurfaceId(1) });
+    assert!(why.contains("one side together"), "{why}");
+}
+
+#[test]
 fn what_cannot_be_cut_is_refused_with_a_reason() {
     let mut bench = with(HAT);
     let why = refusal(&mut bench, Edit::Crease { border: Border::Curve(CurveId(1)) });

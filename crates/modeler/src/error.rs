@@ -184,6 +184,12 @@ pub enum ModelError {
         "{0} runs round a Möbius strip: the region along it has one side, so it cannot be creased. It can be split"
     )]
     OneSided(CurveId),
+    /// Surfaces that together have one side, as three that make up a Möbius strip do, have no outside in common.
+    #[error("{0} and what meets it have one side together: there is no outside that all of them could have")]
+    NoCommonSide(SurfaceId),
+    /// Nothing is there to be turned.
+    #[error("Every surface that meets {0} at a rim has its outside there already")]
+    AlreadyAgree(SurfaceId),
     /// A piece would hang together by a single point.
     #[error("{0} would hang together by a single point")]
     Pinched(SurfaceId),

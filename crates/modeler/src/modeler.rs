@@ -137,7 +137,10 @@ impl Modeler {
     /// Replaces the model; the one before can be had back by undo.
     fn open(&mut self, act: &str, document: Document) -> Result<Outcome, ModelError> {
         let mut fresh = Model::from_document(document)?;
-        self.grab = None;
+        // A drag under way was never committed: undo leads to where it began.
+        if let Some(grab) = self.grab.take() {
+            self.restore(grab.before);
+        }
         fresh.continue_revisions(&self.model);
         fresh.renew_revisions();
         let before = core::mem::replace(&mut self.model, fresh);

@@ -122,6 +122,12 @@ pub enum Edit {
         /// Which surface.
         surface: SurfaceId,
     },
+    /// Turns the surfaces that meet this one at curves, and those that meet them, so that they have their outside where this
+    /// one has it.
+    Propagate {
+        /// The surface that stays as it is.
+        surface: SurfaceId,
+    },
     /// Makes a control point on a surface, at the place nearest to a given one.
     Pin {
         /// Which surface.
@@ -231,6 +237,7 @@ impl Edit {
             Self::Trim { .. } => "Trim",
             Self::Expand { .. } => "Expand",
             Self::Reverse { .. } => "Reverse",
+            Self::Propagate { .. } => "Propagate",
             Self::Pin { .. } | Self::Insert { .. } => "Control point",
             Self::Release { .. } => "Release",
             Self::DeletePoint { .. } | Self::DeleteCurve { .. } | Self::DeleteSurface { .. } => "Delete",

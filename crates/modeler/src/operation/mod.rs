@@ -14,6 +14,7 @@ mod normal;
 mod objective;
 mod pin;
 mod point;
+mod propagate;
 mod region;
 mod release;
 mod reverse;
@@ -79,6 +80,7 @@ fn act(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result<(), ModelErr
         Edit::Smooth { curve } => smooth::smooth(model, *curve),
         Edit::Expand { curve, to } => expand::expand(model, *curve, *to),
         Edit::Reverse { surface } => reverse::reverse(model, *surface),
+        Edit::Propagate { surface } => propagate::propagate(model, *surface),
         Edit::SLoop { surface, along, closed } => s_loop::s_loop(model, *surface, along, *closed),
         Edit::Glue { from, to, skirt, reversed } => glue::glue(model, *from, *to, *skirt, *reversed),
         Edit::Merge { from, to, radius, keep } => merge::merge(model, *from, *to, *radius, *keep),

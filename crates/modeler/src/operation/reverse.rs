@@ -1,5 +1,4 @@
-//! `reverse`: a surface is turned inside out (thesis section 7.2.3). Neighbouring triangles always agree where they can, so
-//! there is nothing to propagate.
+//! `reverse`: a surface is turned inside out (thesis section 7.2.3). Neighbouring triangles always agree where they can.
 
 use crate::error::ModelError;
 use crate::model::Model;

@@ -150,6 +150,11 @@ impl Page {
                     self.request(Request::Edit(Edit::Reverse { surface }));
                 }
             }
+            "propagate" => {
+                if let Selection::Surface(surface) = self.selection {
+                    self.request(Request::Edit(Edit::Propagate { surface }));
+                }
+            }
             "match" => self.begin_match(),
             "free-tangent" => self.free_tangent(),
             "free-normal" => self.free_normal(),

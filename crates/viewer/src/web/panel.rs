@@ -227,6 +227,7 @@ impl Page {
             _ => false,
         };
         dom::show(&dom::element("reverse"), turns);
+        dom::show(&dom::element("propagate"), turns && structure.surfaces.len() > 1);
         dom::show(&dom::element("release"), hangs);
         dom::show(&dom::element("delete"), self.selection != Selection::None && !hangs);
         self.show_tangent();
