@@ -449,6 +449,33 @@ fn crossing_curves_share_a_hub() {
     bench.rest(600);
 }
 
+/// Drawn across the core of a Möbius strip a loop bulges over its rim. Where it touches the rim a cut along it would end, and
+/// there it needs a control point.
+#[test]
+fn a_loop_that_touches_a_rim_stops_there_or_is_refused() {
+    let mut bench = Bench::new();
+    let text = ductile_spec::to_text(&acceptance::shapes::for_surgery()[3]);
+    bench.accept(Request::OpenText { text });
+    bench.rest(900);
+    let at = dvec3(-1.5676612510499792, -0.2686972541843314, 1.1704519275176748);
+    let of = ductile_spec::SpacingOf::Region { surface: SurfaceId(1), at };
+    bench.edit(Edit::Spacing { of, spacing: Some(0.4315659049174905) });
+    let along = vec![
+        dvec3(-1.5331586404296778, -0.1124553817537485, -0.32288501237105516),
+        dvec3(-1.6979716629100035, 0.26183272989300815, 0.30410098362980065),
+        dvec3(-1.697971662910004, -0.48674349340050566, 0.3041009836298006),
+    ];
+    if let Some(refused) = bench.modeler.handle(Request::Edit(s_loop(1, along, true))).refused {
+        assert!(refused.reason.contains("along its rim"), "{}", refused.reason);
+        return;
+    }
+    let model = bench.modeler.model();
+    let shape = &model.surfaces[&SurfaceId(1)];
+    let drawn = shape.embeddings.last().unwrap();
+    let touches = drawn.vertices.iter().filter(|v| shape.mesh.is_boundary_vertex(**v));
+    assert!(touches.into_iter().all(|v| shape.mesh.vertex_source(*v).is_some()));
+}
+
 #[test]
 fn what_cannot_be_drawn_is_refused_with_a_reason() {
     let mut bench = disc();

@@ -151,6 +151,7 @@ impl Round {
         let reply = self.bench.send(Request::Edit(edit.clone()));
         if let Some(refusal) = reply.refused {
             assert!(refusal.reason.len() > 10, "{refusal:?} says nothing");
+            assert!(!refusal.reason.contains("no longer follows"), "{refusal:?} is our own fault");
             self.is_as(&before);
             return Some(refusal.reason);
         }

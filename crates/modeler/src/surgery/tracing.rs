@@ -242,7 +242,27 @@ fn next_hub(model: &mut Model, id: SurfaceId, trace: &Trace, path: &Path) -> Res
             }
         }));
     }
-    Ok(None)
+    let Some((index, at)) = touch(shape, trace, path, &index_of) else { return Ok(None) };
+    let before = index_of.iter().rposition(|stop| *stop <= index).unwrap_or(0);
+    Ok(Some(Hub::After(before, Stop { at: kept_position(model, at)?, point: None })))
+}
+
+/// The first place where the way touches a rim without stopping there: a cut along it would end there.
+fn touch(shape: &SurfaceShape, trace: &Trace, path: &Path, index_of: &[usize]) -> Option<(usize, DVec3)> {
+    let mesh = &shape.mesh;
+    let of_places = trace.places.iter().zip(&path.places).map(|(place, index)| (*index, *place));
+    let is_old = |v: &VertexId| path.made.iter().all(|(made, _)| made != v);
+    let of_vertices = path.vertices.iter().enumerate().filter(|(_, v)| is_old(v));
+    let of_vertices = of_vertices.map(|(index, v)| (index, Place::Vertex(*v)));
+    let is_on_rim = |place: &Place| match *place {
+        Place::Vertex(v) => mesh.is_boundary_vertex(v),
+        Place::Edge { edge, .. } => mesh.is_boundary_edge(edge),
+        Place::Face { .. } => false,
+    };
+    let touching =
+        of_places.chain(of_vertices).filter(|(index, place)| is_on_rim(place) && !index_of.contains(index));
+    let (index, place) = touching.min_by_key(|(index, _)| *index)?;
+    Some((index, place.position(mesh, &shape.positions)?))
 }
 
 /// Makes a control point on the curve at a place; one that is so near that there is no room for another will do.
