@@ -125,7 +125,7 @@ pub(crate) fn run(options: &Options) -> Result<ExitCode, CliError> {
         let text = serde_json::to_string_pretty(&report).map_err(|e| CliError::Option(e.to_string()))?;
         input::write("-".as_ref(), &(text + "\n"))?;
     } else if let Some(samples) = samples {
-        input::write("-".as_ref(), &samples.iter().map(samples::Sample::line).collect::<String>())?;
+        input::write("-".as_ref(), &samples.iter().map(|sample| sample.found.line()).collect::<String>())?;
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -12,6 +12,7 @@ mod input;
 mod link;
 mod ribbon_file;
 mod run;
+mod samples;
 mod script;
 mod solve;
 mod verify;

@@ -18,7 +18,7 @@ mod property_test;
 mod ribbon;
 pub mod s_patch;
 mod seam;
-mod surface_point;
+pub(crate) mod surface_point;
 
 pub use bernstein::{basis, basis_derivative, binomial};
 pub use bezier::{

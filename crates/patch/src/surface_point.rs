@@ -38,21 +38,20 @@ impl SurfacePoint {
     }
 
     /// The principal curvatures, the larger one first, per model unit; positive where the surface bends towards its
-    /// normal. None where there is no normal.
+    /// normal (do Carmo, *Differential Geometry of Curves and Surfaces*, section 3-3). None where there is no normal.
     #[must_use]
     pub fn principal_curvatures(&self) -> Option<[f64; 2]> {
         let normal = self.normal()?;
-        // In the orthonormal frame (dx, the rest of dy) the second form is a symmetric matrix; its eigenvalues have no
-        // cancellation at umbilics.
-        let along = self.dx.try_normalize()?;
-        let (a, b) = (self.dx.length(), self.dy.dot(along));
-        let c = normal.dot(self.dx.cross(self.dy)) / a;
+        // dx = p e and dy = q e + r f in an orthonormal frame (e, f) of the plane; there the second form is a symmetric matrix,
+        // whose eigenvalues have no cancellation at umbilics. Divided twice, since the square of a small length may vanish.
+        let (p, e) = (self.dx.length(), self.dx.try_normalize()?);
+        let f = normal.cross(e);
+        let (q, r) = (self.dy.dot(e), self.dy.dot(f));
         let [l, m, n] = [self.dxx, self.dxy, self.dyy].map(|second| second.dot(normal));
-        // x = p / a - b q / (a c), y = q / c for unit steps p, q of the frame
-        let pp = l / (a * a);
-        let pq = (m - l * b / a) / (a * c);
-        let qq = (n - 2.0 * (m * b / a) + l * (b / a) * (b / a)) / (c * c);
-        let (middle, half) = (0.5 * (pp + qq), libm::hypot(0.5 * (pp - qq), pq));
+        let ee = l / p / p;
+        let ef = (m / p - q * ee) / r;
+        let ff = (n / r - 2.0 * q * ef - q * q * ee / r) / r;
+        let (middle, half) = (0.5 * (ee + ff), libm::hypot(0.5 * (ee - ff), ef));
         Some([middle + half, middle - half])
     }
 }
@@ -79,7 +78,7 @@ mod tests {
 
     #[test]
     fn curvatures_do_not_depend_on_the_parameters() {
-        for size in [1e-30, 1.0, 1e30] {
+        for size in [1e-90, 1e-30, 1.0, 1e30, 1e90] {
             let [first, second] = graph(2.0, -0.5, size).principal_curvatures().unwrap();
             let deviation = ((first * size - 2.0).abs()).max((second * size + 0.5).abs());
             assert!(deviation < 1e-14, "{first} {second}");

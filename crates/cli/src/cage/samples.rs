@@ -1,12 +1,11 @@
 //! Exact points of the surface over a cage, at places that a file gives.
 
 use super::{CliError, MOST_BYTES};
-use crate::input;
-use crate::verify::json::Json;
+use crate::samples::{Measured, Places};
 use crate::verify::reader::{Flaw, Item};
 use ductile_patch::cage::CageSurface;
 use serde::Serialize;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Which patch is meant.
 #[derive(Clone, Copy)]
@@ -19,68 +18,33 @@ enum Of {
     Quad(usize),
 }
 
-/// A sample, and where in the file it is asked for.
-struct Wanted {
-    place: String,
+/// Where a sample is wanted.
+pub(super) struct Wanted {
     of: Of,
     u: f64,
     v: f64,
 }
 
-/// The samples of a file.
-pub(super) struct Places {
-    file: PathBuf,
-    wanted: Vec<Wanted>,
-}
-
-/// What the surface is like at a point, to the last bit.
+/// What the surface is like at a point.
 #[derive(Serialize)]
 pub(super) struct Sample {
     quad: usize,
     u: f64,
     v: f64,
-    point: [f64; 3],
-    normal: Option<[f64; 3]>,
-    principal_curvatures: Option<[f64; 2]>,
+    #[serde(flatten)]
+    pub(super) found: Measured,
 }
 
-impl Sample {
-    /// Point, normal and curvatures with spaces between, `-` for what does not exist.
-    pub(super) fn line(&self) -> String {
-        let words = |values: Option<&[f64]>, count: usize| match values {
-            Some(values) => values.iter().map(|value| format!("{value}")).collect::<Vec<_>>().join(" "),
-            None => vec!["-"; count].join(" "),
-        };
-        let [point, normal, curvatures] = [
-            words(Some(&self.point), 3),
-            words(self.normal.as_ref().map(<[f64; 3]>::as_slice), 3),
-            words(self.principal_curvatures.as_ref().map(<[f64; 2]>::as_slice), 2),
-        ];
-        format!("{point} {normal} {curvatures}\n")
-    }
-}
-
-/// Reads a file of samples: a list, or an object with the field `samples`. Each is a list `[face, u, v]`, or an object with `u`, `v`
-/// and `face`, `face` and `corner`, or `quad`.
-pub(super) fn read(file: &Path) -> Result<Places, CliError> {
-    let bad = |reason: String| CliError::Refused { file: file.to_owned(), reason };
-    let text = input::read_up_to(file, MOST_BYTES)?;
-    let json: Json = serde_json::from_str(&text).map_err(|reason| bad(reason.to_string()))?;
-    let wanted = list(&Item::root(&json)).map_err(|flaw| bad(flaw.to_string()))?;
-    Ok(Places { file: file.to_owned(), wanted })
-}
-
-fn list(root: &Item<'_>) -> Result<Vec<Wanted>, Flaw> {
-    let list = if root.is_list() { root.clone() } else { root.fields()?.need("samples")? };
-    list.list()?.map(|item| wanted(&item)).collect()
+/// Reads a file of samples. Each is a list `[face, u, v]`, or an object with `u`, `v` and `face`, `face` and `corner`, or `quad`.
+pub(super) fn read(file: &Path) -> Result<Places<Wanted>, CliError> {
+    Places::read(file, MOST_BYTES, wanted)
 }
 
 fn wanted(item: &Item<'_>) -> Result<Wanted, Flaw> {
-    let place = item.place.clone();
     if item.is_list() {
         let parts: Vec<Item<'_>> = item.list()?.collect();
         let [face, u, v] = &parts[..] else { return Err(item.flaw("a list of face, u and v is expected")) };
-        return Ok(Wanted { place, of: Of::Face(face.count()?), u: u.number()?, v: v.number()? });
+        return Ok(Wanted { of: Of::Face(face.count()?), u: u.number()?, v: v.number()? });
     }
     let fields = item.fields()?;
     let of = match (fields.get("face"), fields.get("corner"), fields.get("quad")) {
@@ -89,28 +53,16 @@ fn wanted(item: &Item<'_>) -> Result<Wanted, Flaw> {
         (None, None, Some(quad)) => Of::Quad(quad.count()?),
         _ => return Err(item.flaw("one of `face`, `face` with `corner`, or `quad` is expected")),
     };
-    Ok(Wanted { place, of, u: fields.need("u")?.number()?, v: fields.need("v")?.number()? })
+    Ok(Wanted { of, u: fields.need("u")?.number()?, v: fields.need("v")?.number()? })
 }
 
 /// Evaluates all samples, or says which one cannot be.
-pub(super) fn evaluate(places: &Places, surface: &CageSurface) -> Result<Vec<Sample>, CliError> {
-    let one = |wanted: &Wanted| {
-        let bad = |what: String| CliError::Refused {
-            file: places.file.clone(),
-            reason: format!("{}: {what}", wanted.place),
-        };
-        let (quad, u, v) = patch(wanted, surface).map_err(bad)?;
-        let found = surface.evaluate(quad, u, v).map_err(|error| bad(error.to_string()))?;
-        Ok(Sample {
-            quad,
-            u,
-            v,
-            point: found.point.to_array(),
-            normal: found.normal.map(|normal| normal.to_array()),
-            principal_curvatures: found.curvatures,
-        })
-    };
-    places.wanted.iter().map(one).collect()
+pub(super) fn evaluate(places: &Places<Wanted>, surface: &CageSurface) -> Result<Vec<Sample>, CliError> {
+    places.evaluate(|wanted| {
+        let (quad, u, v) = patch(wanted, surface)?;
+        let found = surface.evaluate(quad, u, v).map_err(|error| error.to_string())?;
+        Ok(Sample { quad, u, v, found: Measured::new(found.point, found.normal, found.curvatures) })
+    })
 }
 
 /// The quad and the parameters in it. A face with four corners that was divided keeps its parameters: those in the unit square over the

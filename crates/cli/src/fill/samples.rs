@@ -1,13 +1,12 @@
 //! Exact points of patches at parameters that a file gives.
 
 use super::{CliError, MOST_BYTES, Patch};
-use crate::input;
-use crate::verify::json::Json;
+use crate::samples::{Measured, Places};
 use crate::verify::reader::{Flaw, Item};
 use ductile_patch::s_patch::Domain;
 use glam::DVec2;
 use serde::Serialize;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Where a sample is wanted.
 enum At {
@@ -16,60 +15,27 @@ enum At {
     Side(usize, f64),
 }
 
-/// A sample, and where in the file it is asked for.
-struct Wanted {
-    place: String,
+/// A sample that is wanted of a patch.
+pub(super) struct Wanted {
     patch: usize,
     at: At,
 }
 
-/// The samples of a file.
-pub(super) struct Places {
-    file: PathBuf,
-    wanted: Vec<Wanted>,
-}
-
-/// What a patch is like at a point, to the last bit.
+/// What a patch is like at a point.
 #[derive(Serialize)]
 pub(super) struct Sample {
     patch: usize,
     xy: [f64; 2],
     bary: Vec<f64>,
-    point: [f64; 3],
-    normal: Option<[f64; 3]>,
-    principal_curvatures: Option<[f64; 2]>,
+    #[serde(flatten)]
+    pub(super) found: Measured,
 }
 
-impl Sample {
-    /// Point, normal and curvatures with spaces between, `-` for what does not exist.
-    pub(super) fn line(&self) -> String {
-        let words = |values: Option<&[f64]>, count: usize| match values {
-            Some(values) => values.iter().map(|value| format!("{value}")).collect::<Vec<_>>().join(" "),
-            None => vec!["-"; count].join(" "),
-        };
-        let [point, normal, curvatures] = [
-            words(Some(&self.point), 3),
-            words(self.normal.as_ref().map(<[f64; 3]>::as_slice), 3),
-            words(self.principal_curvatures.as_ref().map(<[f64; 2]>::as_slice), 2),
-        ];
-        format!("{point} {normal} {curvatures}\n")
-    }
-}
-
-/// Reads a file of samples: a list, or an object with the field `samples`. Each is a list of two numbers (a point of the
-/// domain), a list of as many numbers as the patch has sides (barycentric coordinates), or an object with `xy`, `bary`, or
-/// `side` and `u`, and with `patch` where the file of ribbons has several.
-pub(super) fn read(file: &Path) -> Result<Places, CliError> {
-    let bad = |reason: String| CliError::Refused { file: file.to_owned(), reason };
-    let text = input::read_up_to(file, MOST_BYTES)?;
-    let json: Json = serde_json::from_str(&text).map_err(|reason| bad(reason.to_string()))?;
-    let wanted = list(&Item::root(&json)).map_err(|flaw| bad(flaw.to_string()))?;
-    Ok(Places { file: file.to_owned(), wanted })
-}
-
-fn list(root: &Item<'_>) -> Result<Vec<Wanted>, Flaw> {
-    let list = if root.is_list() { root.clone() } else { root.fields()?.need("samples")? };
-    list.list()?.map(|item| wanted(&item)).collect()
+/// Reads a file of samples. Each is a list of two numbers (a point of the domain), a list of as many numbers as the patch has
+/// sides (barycentric coordinates), or an object with `xy`, `bary`, or `side` and `u`, and with `patch` where the file of ribbons
+/// has several.
+pub(super) fn read(file: &Path) -> Result<Places<Wanted>, CliError> {
+    Places::read(file, MOST_BYTES, wanted)
 }
 
 fn wanted(item: &Item<'_>) -> Result<Wanted, Flaw> {
@@ -81,7 +47,7 @@ fn wanted(item: &Item<'_>) -> Result<Wanted, Flaw> {
             [x, y] => At::Domain(DVec2::new(x, y)),
             _ => At::Coordinates(numbers),
         };
-        return Ok(Wanted { place: item.place.clone(), patch: 0, at });
+        return Ok(Wanted { patch: 0, at });
     }
     let fields = item.fields()?;
     let patch = fields.get("patch").map_or(Ok(0), |patch| patch.count())?;
@@ -94,45 +60,37 @@ fn wanted(item: &Item<'_>) -> Result<Wanted, Flaw> {
     } else {
         return Err(item.flaw("one of `xy`, `bary`, or `side` with `u` is expected"));
     };
-    Ok(Wanted { place: item.place.clone(), patch, at })
+    Ok(Wanted { patch, at })
 }
 
 /// Evaluates all samples, or says which one cannot be.
-pub(super) fn evaluate(places: &Places, patches: &[Patch]) -> Result<Vec<Sample>, CliError> {
+pub(super) fn evaluate(places: &Places<Wanted>, patches: &[Patch]) -> Result<Vec<Sample>, CliError> {
     let domains: Vec<Domain> = patches.iter().map(|patch| Domain::new(patch.patch.sides())).collect();
-    let one = |wanted: &Wanted| {
-        let bad = |what: String| CliError::Refused {
-            file: places.file.clone(),
-            reason: format!("{}: {what}", wanted.place),
-        };
+    places.evaluate(|wanted| {
         let at = wanted.patch;
         let Some((Patch { patch, .. }, domain)) = patches.get(at).zip(domains.get(at)) else {
-            return Err(bad(format!("there is no patch {at}: there are {}", patches.len())));
+            return Err(format!("there is no patch {at}: there are {}", patches.len()));
         };
         let xy = match &wanted.at {
             At::Domain(xy) => *xy,
             At::Side(side, u) if *side < domain.sides() => domain.on_side(*side, *u),
             At::Side(side, _) => {
-                return Err(bad(format!("there is no side {side}: there are {}", domain.sides())));
+                return Err(format!("there is no side {side}: there are {}", domain.sides()));
             }
             At::Coordinates(values) if values.len() != domain.sides() => {
-                return Err(bad(format!("{} coordinates for {} corners", values.len(), domain.sides())));
+                return Err(format!("{} coordinates for {} corners", values.len(), domain.sides()));
             }
-            At::Coordinates(values) => domain.point_with(values).ok_or_else(|| {
-                bad("these are the Wachspress coordinates of no point of the domain".to_owned())
-            })?,
+            At::Coordinates(values) => domain
+                .point_with(values)
+                .ok_or_else(|| "these are the Wachspress coordinates of no point of the domain".to_owned())?,
         };
-        let found = patch
-            .at(domain, xy)
-            .ok_or_else(|| bad(format!("({}, {}) lies outside of the domain", xy.x, xy.y)))?;
+        let found =
+            patch.at(domain, xy).ok_or_else(|| format!("({}, {}) lies outside of the domain", xy.x, xy.y))?;
         Ok(Sample {
             patch: at,
             xy: xy.to_array(),
             bary: domain.coordinates(xy),
-            point: found.point.to_array(),
-            normal: found.normal().map(|normal| normal.to_array()),
-            principal_curvatures: found.principal_curvatures(),
+            found: Measured::new(found.point, found.normal(), found.principal_curvatures()),
         })
-    };
-    places.wanted.iter().map(one).collect()
+    })
 }

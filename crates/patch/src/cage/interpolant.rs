@@ -8,7 +8,7 @@
 //! The ring runs counter-clockwise: edge point `E[0]`, corner `C[0]` (opposite in the first quad), `E[1]`, `C[1]` and so on, so that `E[j]`
 //! lies between `C[j-1]` and `C[j]`. Weights stand in the order `M`, `C[0..n]`, `E[0..n]`.
 
-use super::jet::Jet;
+use crate::jet::Jet;
 use std::f64::consts::PI;
 
 /// Weights of the interpolant of a vertex with `n` faces at `(x, y)`: in [-1,1]² for `n = 4`, in the regular polygon else.

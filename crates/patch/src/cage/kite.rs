@@ -10,7 +10,7 @@
 //! only C1 across the spokes of the polygon, so surfaces over irregular vertices are G1. [`Map::Smooth`] is a closed form, analytic off
 //! the origin also across spokes: surfaces are G2. Its far sides leave the kite, where the blend has faded to nothing.
 
-use super::jet::Jet;
+use crate::jet::Jet;
 use std::f64::consts::{PI, SQRT_2};
 
 /// How the square is mapped to the kite.

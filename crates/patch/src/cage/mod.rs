@@ -15,10 +15,8 @@
 //! ```
 
 mod blend;
-mod curvature;
 mod error;
 mod interpolant;
-mod jet;
 mod kite;
 mod links;
 mod pattern;

@@ -5,8 +5,8 @@
 //! quads of a cage look alike.
 
 use super::error::CageError;
-use super::jet::Jet;
 use super::surface::CageSurface;
+use crate::jet::Jet;
 use std::collections::BTreeMap;
 
 /// Samples that are evaluated side by side.

@@ -4,15 +4,16 @@
 //! neighbours share tangent planes, and with [`Map::Smooth`] curvatures too. Quad `[a,b,c,d]` has `S(0,0) = a`, `S(1,0) = b`,
 //! `S(1,1) = c`, `S(0,1) = d`; normals have the direction of `S_u x S_v`, outward where faces run counter-clockwise.
 
+use super::Cage;
 use super::blend::{Blend, Blender};
 use super::error::CageError;
 use super::interpolant::weights;
-use super::jet::Jet;
 use super::kite::{self, Map};
 use super::links::{Links, check_positions, name};
 use super::ring::{Boundary, Ring, rings};
 use super::split::{self, Split};
-use super::{Cage, curvature};
+use crate::jet::Jet;
+use crate::surface_point::{self, unit_normal};
 use glam::DVec3;
 
 /// How the surface is built over its cage.
@@ -182,15 +183,14 @@ impl CageSurface {
             }
         }
         let [point, du, dv, duu, duv, dvv] = sum;
-        let normal = curvature::normal(du, dv);
+        let normal = unit_normal(du, dv);
         let second = at_vertex.is_none_or(|(.., is_exact)| !is_exact).then_some([duu, duv, dvv]);
         let curvatures = match at_vertex {
             Some((corner, ..)) => {
                 let (a, b) = local(corner, u, v);
-                let [du, dv, duu, duv, dvv] = self.local_surface(quad, corner, a, b);
-                curvature::principal([du, dv], [duu, duv, dvv])
+                principal(point, self.local_surface(quad, corner, a, b))
             }
-            None => curvature::principal([du, dv], [duu, duv, dvv]),
+            None => principal(point, [du, dv, duu, duv, dvv]),
         };
         Ok(SurfacePoint { point, first: [du, dv], second, normal, curvatures })
     }
@@ -239,6 +239,10 @@ fn local(corner: usize, u: f64, v: f64) -> (f64, f64) {
         2 => (1.0 - u, 1.0 - v),
         _ => (1.0 - v, u),
     }
+}
+
+fn principal(point: DVec3, [dx, dy, dxx, dxy, dyy]: [DVec3; 5]) -> Option<[f64; 2]> {
+    surface_point::SurfacePoint { point, dx, dy, dxx, dxy, dyy }.principal_curvatures()
 }
 
 fn add(sum: &mut [DVec3; 6], weight: Jet, point: DVec3) {

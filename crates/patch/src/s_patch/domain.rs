@@ -160,12 +160,12 @@ mod tests {
                     let half = 0.5 / step;
                     let jet = here[k];
                     let pairs = [
-                        (jet.x, (right[k].value - left[k].value) * half),
-                        (jet.y, (up[k].value - down[k].value) * half),
-                        (jet.xx, (right[k].x - left[k].x) * half),
-                        (jet.xy, (up[k].x - down[k].x) * half),
-                        (jet.xy, (right[k].y - left[k].y) * half),
-                        (jet.yy, (up[k].y - down[k].y) * half),
+                        (jet.a, (right[k].value - left[k].value) * half),
+                        (jet.b, (up[k].value - down[k].value) * half),
+                        (jet.aa, (right[k].a - left[k].a) * half),
+                        (jet.ab, (up[k].a - down[k].a) * half),
+                        (jet.ab, (right[k].b - left[k].b) * half),
+                        (jet.bb, (up[k].b - down[k].b) * half),
                     ];
                     for (exact, difference) in pairs {
                         assert!(

@@ -47,7 +47,7 @@ impl<F: FnMut(usize, &Jet)> Walk<F> {
             return;
         }
         for s in (0..=left).rev() {
-            let factor = self.powers[k * wide + s].scaled(self.choices[left * wide + s]);
+            let factor = self.powers[k * wide + s] * self.choices[left * wide + s];
             self.down(k + 1, left - s, product * factor);
         }
     }
@@ -64,11 +64,11 @@ impl SPatch {
         for_each_basis(domain, self.depth(), point, |rank, basis| {
             let control = self.points()[rank];
             sum.point += control * basis.value;
-            sum.dx += control * basis.x;
-            sum.dy += control * basis.y;
-            sum.dxx += control * basis.xx;
-            sum.dxy += control * basis.xy;
-            sum.dyy += control * basis.yy;
+            sum.dx += control * basis.a;
+            sum.dy += control * basis.b;
+            sum.dxx += control * basis.aa;
+            sum.dxy += control * basis.ab;
+            sum.dyy += control * basis.bb;
         });
         Some(sum)
     }

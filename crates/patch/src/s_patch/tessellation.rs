@@ -197,7 +197,7 @@ fn count(sides: usize, resolution: usize) -> usize {
 }
 
 fn append_row(grid: &Tessellation, place: DVec2, rows: &mut Vec<[f64; 3]>) {
-    let put = |_, basis: &crate::jet::Jet| rows.push([basis.value, basis.x, basis.y]);
+    let put = |_, basis: &crate::jet::Jet| rows.push([basis.value, basis.a, basis.b]);
     for_each_basis(&grid.domain, grid.labels.depth(), place, put);
 }
 

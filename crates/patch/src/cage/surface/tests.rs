@@ -135,7 +135,7 @@ fn the_bilinear_map_leaves_kinks() {
             }
         }
         let [point, du, dv, ..] = sum;
-        let normal = curvature::normal(du, dv);
+        let normal = unit_normal(du, dv);
         SurfacePoint { point, first: [du, dv], second: None, normal, curvatures: None }
     };
     let (gap, kink, _) = seams_with(&surface, &bilinear);
@@ -160,13 +160,7 @@ fn a_blend_that_is_not_flat_leaves_kinks() {
             }
         }
         let [point, du, dv, ..] = sum;
-        SurfacePoint {
-            point,
-            first: [du, dv],
-            second: None,
-            normal: curvature::normal(du, dv),
-            curvatures: None,
-        }
+        SurfacePoint { point, first: [du, dv], second: None, normal: unit_normal(du, dv), curvatures: None }
     };
     assert!(seams_with(&surface, &slanted).1 > 0.1);
 }

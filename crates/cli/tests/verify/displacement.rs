@@ -1,44 +1,14 @@
 //! `ductile verify` on reference files of blend functions and displacement blends: the true ones pass, every damage is found.
 
-#![allow(clippy::unwrap_used, reason = "a failing test should stop where it fails")]
-
+use crate::support::{damaged, fixture, verify};
 use serde_json::{Value, json};
-use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::Command;
 
 const BLENDS: &str = "erbs.json";
 const GRID: &str = "displacement-grid.json";
 
-fn verify(file: &Path) -> (i32, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_ductile")).arg("verify").arg(file).output().unwrap();
-    let said = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap()).concat();
-    (output.status.code().unwrap(), said)
-}
-
-fn fixture(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/fixtures").join(name)
-}
-
-/// A changed copy of a fixture must end with that status and say that.
-fn changed(name: &str, status: i32, says: &str, change: impl FnOnce(&mut Value)) {
-    let mut file: Value = serde_json::from_str(&fs::read_to_string(fixture(name)).unwrap()).unwrap();
-    let before = file.clone();
-    change(&mut file);
-    assert!(file != before, "nothing was changed");
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("some.json");
-    fs::write(&path, file.to_string()).unwrap();
-    let (found, said) = verify(&path);
-    assert!(
-        found == status && said.contains(says),
-        "{name}, {status} and `{says}` expected: {found}\n{said}"
-    );
-}
-
-/// The same with one value.
+/// One value of a reference file changed.
 fn with(name: &str, status: i32, says: &str, pointer: &str, value: Value) {
-    changed(name, status, says, |file| *file.pointer_mut(pointer).expect(pointer) = value);
+    damaged(name, status, says, |file| *file.pointer_mut(pointer).expect(pointer) = value);
 }
 
 /// A number moved by so much must be found out.
@@ -52,11 +22,11 @@ fn moved(name: &str, quantity: &str, pointer: &str, by: f64) {
     });
     let place =
         if quantity.ends_with("offsets") { place.rsplit_once('[').unwrap().0.to_owned() } else { place };
-    changed(name, 1, &format!("{place}  EXCEEDED"), |file| {
+    damaged(name, 1, &format!("{place}  EXCEEDED"), |file| {
         let value = file.pointer_mut(pointer).expect(pointer);
         *value = json!(value.as_f64().unwrap() + by);
     });
-    changed(name, 1, "NOT verified: 1 of 8 quantities", |file| {
+    damaged(name, 1, "NOT verified: 1 of 8 quantities", |file| {
         let value = file.pointer_mut(pointer).expect(pointer);
         *value = json!(value.as_f64().unwrap() - by);
     });
@@ -65,7 +35,7 @@ fn moved(name: &str, quantity: &str, pointer: &str, by: f64) {
 #[test]
 fn the_recorded_files_are_verified() {
     for name in [BLENDS, GRID] {
-        let (status, said) = verify(&fixture(name));
+        let (status, said) = verify(&[fixture(name)]);
         assert!(status == 0 && said.contains("verified: 8 quantities"), "{said}");
     }
 }
@@ -96,13 +66,13 @@ fn every_quantity_slightly_beyond_its_tolerance_is_found() {
     with(GRID, 1, "EXCEEDED", "/cases/0/feet/0/blend_harmonic/3/range", json!(0.74));
     with(GRID, 1, "EXCEEDED", "/cases/0/multi/ranges/1", json!(0.51));
     with(GRID, 1, "EXCEEDED", "/cases/0/multi/displacements/0/1", json!(0.001));
-    changed(GRID, 1, "EXCEEDED", |file| drop(file["cases"][0]["boundary"].as_array_mut().unwrap().pop()));
+    damaged(GRID, 1, "EXCEEDED", |file| drop(file["cases"][0]["boundary"].as_array_mut().unwrap().pop()));
 }
 
 #[test]
 fn other_blends_and_combinations_are_known() {
     // Without what may be missing, and with other names for the same.
-    changed(BLENDS, 0, "verified: 2 quantities", |file| {
+    damaged(BLENDS, 0, "verified: 2 quantities", |file| {
         let fields = file.as_object_mut().unwrap();
         for name in ["range_rows", "range_columns", "inv_phi1", "tolerance"] {
             fields.remove(name);
@@ -111,11 +81,11 @@ fn other_blends_and_combinations_are_known() {
         // By hand: 1 / (1 + exp(64 - (4/3)³)), and its slope with the exponent's.
         fields["rows"] = json!([[0.0, 0.0, 0.0], [0.5, 0.5, 24.0], [1.0, 1.0, 0.0], [1.0, 1.5, 0.0]]);
     });
-    changed(BLENDS, 0, "verified: 1 quantities", |file| {
+    damaged(BLENDS, 0, "verified: 1 quantities", |file| {
         *file =
             json!({"range_columns": ["R", "s", "t"], "range_rows": [[0.5, 0.25, 0.75], [0.75, 0.5, 0.75]]});
     });
-    changed(GRID, 0, "verified: 2 quantities", |file| {
+    damaged(GRID, 0, "verified: 2 quantities", |file| {
         let case = &mut file["cases"][0];
         let rho: Vec<f64> = case["feet"][0]["conformal"]
             .as_array()
@@ -133,7 +103,7 @@ fn other_blends_and_combinations_are_known() {
         file["cases"].as_array_mut().unwrap().truncate(1);
     });
     // In space instead of the plane, and with a size for a range.
-    changed(GRID, 0, "verified: 8 quantities", |file| {
+    damaged(GRID, 0, "verified: 8 quantities", |file| {
         for vertex in file["cases"][0]["vertices"].as_array_mut().unwrap() {
             let (x, y) = (vertex[0].as_f64().unwrap(), vertex[1].as_f64().unwrap());
             *vertex = json!([0.6 * x + 3.0, y, 0.8 * x - 2.0]);
@@ -149,20 +119,20 @@ fn what_no_rule_covers_is_told() {
     with(BLENDS, 1, "columns[3]: no blend function", "/columns/3", json!("bump_k-1"));
     with(BLENDS, 1, "columns[5]: no blend function", "/columns/5", json!("eta_delta_0.7"));
     with(BLENDS, 1, "range_columns[2]: no function of ranges", "/range_columns/2", json!("Q"));
-    changed(BLENDS, 1, "not checked: moments: no rule", |file| file["moments"] = json!([0.5]));
+    damaged(BLENDS, 1, "not checked: moments: no rule", |file| file["moments"] = json!([0.5]));
     with(GRID, 1, "cases[0].laplacian: no Laplacian", "/cases/0/laplacian", json!("clamped cotangent"));
-    changed(GRID, 1, "cases[0].feet[0].curvature: no rule", |file| {
+    damaged(GRID, 1, "cases[0].feet[0].curvature: no rule", |file| {
         file["cases"][0]["feet"][0]["curvature"] = json!([1.0]);
     });
-    changed(GRID, 1, "cases[0].multi.cardinal_conformal_offsets: no rule", |file| {
+    damaged(GRID, 1, "cases[0].multi.cardinal_conformal_offsets: no rule", |file| {
         file["cases"][0]["multi"]["cardinal_conformal_offsets"] = json!([]);
     });
-    changed(GRID, 1, "cases[0].multi.gram_conformal_offsets: the feet lie too deep", |file| {
+    damaged(GRID, 1, "cases[0].multi.gram_conformal_offsets: the feet lie too deep", |file| {
         let multi = &mut file["cases"][0]["multi"];
         multi["gram_conformal_offsets"] = multi["plain_sum_offsets"].clone();
         multi["ranges"] = json!([0.98, 0.98, 0.98]);
     });
-    changed(GRID, 1, "blend_harmonic[0].blend: no blend", |file| {
+    damaged(GRID, 1, "blend_harmonic[0].blend: no blend", |file| {
         file["cases"][0]["feet"][0]["blend_harmonic"][0]["blend"] = json!("smoothstep");
     });
     with(GRID, 1, "nothing was compared", "/cases", json!([{"vertices": [], "triangles": []}]));
@@ -200,12 +170,12 @@ fn what_cannot_be_read_names_its_place() {
     );
     grid("cases[0].multi.displacements[1]: 3 numbers", "/cases/0/multi/displacements/1", json!([0, 0]));
     grid("cases[0]: triangle 0 has no area", "/cases/0/vertices", json!(vec![[0, 0]; 76]));
-    changed(GRID, 2, "more than two triangles meet", |file| {
+    damaged(GRID, 2, "more than two triangles meet", |file| {
         let again = file["cases"][0]["triangles"][0].clone();
         let triangles = file["cases"][0]["triangles"].as_array_mut().unwrap();
         triangles.extend([again.clone(), again]);
     });
-    changed(GRID, 2, "cases[1].triangles: this field is missing", |file| {
+    damaged(GRID, 2, "cases[1].triangles: this field is missing", |file| {
         file["cases"][1].as_object_mut().unwrap().remove("triangles");
     });
 }

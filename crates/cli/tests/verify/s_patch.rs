@@ -1,46 +1,14 @@
 //! `ductile verify` on reference files of S-patches: the true ones pass, every quantity perturbed fails, and files that
 //! make no sense are refused with their place.
 
-#![allow(clippy::unwrap_used, reason = "a failing test should stop where it fails")]
-
+use crate::support::{damaged, fixture, load, verify, verify_text};
 use serde_json::{Value, json};
-use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::Command;
 
 const CUBIC: &str = "s-patch-5-sided-cubic.json";
 const QUINTIC: &str = "s-patch-6-sided-quintic.json";
 
-fn verify(files: &[PathBuf]) -> (i32, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_ductile")).arg("verify").args(files).output().unwrap();
-    let said = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap()).concat();
-    (output.status.code().unwrap(), said)
-}
-
-fn fixture(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/fixtures").join(name)
-}
-
-fn load(name: &str) -> Value {
-    serde_json::from_str(&fs::read_to_string(fixture(name)).unwrap()).unwrap()
-}
-
 fn verify_value(value: &Value) -> (i32, String) {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("some.json");
-    fs::write(&file, value.to_string()).unwrap();
-    verify(&[file])
-}
-
-/// A changed copy of a fixture must end with that status and say that.
-fn damaged(name: &str, status: i32, says: &str, change: impl FnOnce(&mut Value)) {
-    let mut file = load(name);
-    let before = file.clone();
-    change(&mut file);
-    assert!(file != before, "the damage was none");
-    let (found, said) = verify_value(&file);
-    assert_eq!(found, status, "{name}, which should say `{says}`: {said}");
-    assert!(said.contains(says), "{name} should say `{says}`: {said}");
+    verify_text(&value.to_string())
 }
 
 fn add(value: &mut Value, by: f64) {

@@ -1,38 +1,11 @@
 //! `ductile verify` on reference files of cage surfaces and parameter maps: the true ones pass, every damage is found.
 
-#![allow(clippy::unwrap_used, reason = "a failing test should stop where it fails")]
-
+use crate::support::{damaged, fixture, verify};
 use serde_json::{Value, json};
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::path::PathBuf;
 
 const CAGES: [&str; 3] = ["polyhedral-cube.json", "polyhedral-torus.json", "polyhedral-open.json"];
-
-/// Exit status, and everything said on both streams.
-fn verify(files: &[PathBuf]) -> (i32, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_ductile")).arg("verify").args(files).output().unwrap();
-    let said = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap()).concat();
-    (output.status.code().unwrap(), said)
-}
-
-fn fixture(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/fixtures").join(name)
-}
-
-/// A changed copy of a fixture must end with that status and say that.
-fn changed(name: &str, status: i32, says: &str, change: impl FnOnce(&mut Value)) {
-    let before: Value = serde_json::from_str(&fs::read_to_string(fixture(name)).unwrap()).unwrap();
-    let mut file = before.clone();
-    change(&mut file);
-    assert!(file != before, "nothing was changed");
-    let folder = tempfile::tempdir().unwrap();
-    let place = folder.path().join("some.json");
-    fs::write(&place, file.to_string()).unwrap();
-    let (found, said) = verify(&[place]);
-    assert_eq!(found, status, "{name}, which should say `{says}`: {said}");
-    assert!(said.contains(says), "{name} should say `{says}`: {said}");
-}
 
 fn at<'a>(file: &'a mut Value, pointer: &str) -> &'a mut Value {
     file.pointer_mut(pointer).unwrap()
@@ -60,18 +33,18 @@ fn a_wrong_number_anywhere_is_found() {
             let place = |rest: &str| format!("/cases/{case}/{rest}");
             let moved = |says: &str, pointer: &str, by: f64| {
                 let says = format!("cases[{case}].{says}  EXCEEDED");
-                changed(name, 1, &says, |file| add(file, &place(pointer), by));
+                damaged(name, 1, &says, |file| add(file, &place(pointer), by));
             };
             moved("samples[7].point", "samples/7/point/1", 1.5e-10);
             moved("samples[9].normal", "samples/9/normal/2", -1.5e-9);
             moved("quad_mesh.vertices[3]", "quad_mesh/vertices/3/0", 1.5e-10);
-            changed(name, 1, &format!("cases[{case}].quad_mesh.quads[1]  EXCEEDED"), |file| {
+            damaged(name, 1, &format!("cases[{case}].quad_mesh.quads[1]  EXCEEDED"), |file| {
                 let quad = at(file, &place("quad_mesh/quads/1")).as_array_mut().unwrap();
                 quad.rotate_left(1);
             });
         }
     }
-    changed("polyhedral-open.json", 1, "cases[0].open  EXCEEDED", |file| {
+    damaged("polyhedral-open.json", 1, "cases[0].open  EXCEEDED", |file| {
         *at(file, "/cases/0/open") = json!(false)
     });
     for map in 0..6 {
@@ -79,7 +52,7 @@ fn a_wrong_number_anywhere_is_found() {
             [(2, 1.5e-13), (3, -1.5e-13), (4, 1.5e-11), (5, 1.5e-11), (6, -1.5e-11), (7, 1.5e-11)]
         {
             let says = format!("maps[{map}].rows[8][{column}]  EXCEEDED");
-            changed("param-map.json", 1, &says, |file| {
+            damaged("param-map.json", 1, &says, |file| {
                 add(file, &format!("/maps/{map}/rows/8/{column}"), by)
             });
         }
@@ -90,7 +63,7 @@ fn a_wrong_number_anywhere_is_found() {
 #[test]
 fn other_rules_are_other_surfaces() {
     let wrong = |name: &str, pointer: &str, value: &str| {
-        changed(name, 1, "EXCEEDED", |file| *at(file, pointer) = json!(value));
+        damaged(name, 1, "EXCEEDED", |file| *at(file, pointer) = json!(value));
     };
     wrong("polyhedral-cube.json", "/cases/1/map", "smooth");
     wrong("polyhedral-cube.json", "/cases/1/blend", "hermite k=3");
@@ -107,7 +80,7 @@ fn what_is_left_out_is_what_the_paper_says() {
         (CAGES[0], &["map", "blend", "split", "name", "quad_mesh"][..]),
         (CAGES[2], &["map", "blend", "split", "open", "boundary_rule"][..]),
     ] {
-        changed(name, 0, "verified", |file| {
+        damaged(name, 0, "verified", |file| {
             file.as_object_mut().unwrap().remove("conventions");
             let case = at(file, "/cases/0").as_object_mut().unwrap();
             fields.iter().for_each(|field| assert!(case.remove(*field).is_some()));
@@ -119,33 +92,33 @@ fn what_is_left_out_is_what_the_paper_says() {
 #[test]
 fn what_is_not_known_is_never_passed_over() {
     let file = CAGES[0];
-    changed(file, 1, "cases[0].map: no map of that name", |file| {
+    damaged(file, 1, "cases[0].map: no map of that name", |file| {
         *at(file, "/cases/0/map") = json!("bilinear")
     });
-    changed(file, 1, "cases[0].blend: no blend of that name", |file| {
+    damaged(file, 1, "cases[0].blend: no blend of that name", |file| {
         *at(file, "/cases/0/blend") = json!("eta")
     });
-    changed(file, 1, "cases[0].blend: no blend", |file| *at(file, "/cases/0/blend") = json!("hermite k=x"));
-    changed(file, 1, "cases[0].split: no split of that name", |file| {
+    damaged(file, 1, "cases[0].blend: no blend", |file| *at(file, "/cases/0/blend") = json!("hermite k=x"));
+    damaged(file, 1, "cases[0].split: no split of that name", |file| {
         *at(file, "/cases/0/split") = json!("doo-sabin")
     });
-    changed(file, 1, "conventions.indices: no such convention", |file| {
+    damaged(file, 1, "conventions.indices: no such convention", |file| {
         *at(file, "/conventions/indices") = json!("1-based");
     });
-    changed(file, 1, "cases[0].samples[0].mean_curvature: no rule", |file| {
+    damaged(file, 1, "cases[0].samples[0].mean_curvature: no rule", |file| {
         at(file, "/cases/0/samples/0")["mean_curvature"] = json!(1.0);
     });
-    changed(file, 1, "neither a point nor a normal", |file| {
+    damaged(file, 1, "neither a point nor a normal", |file| {
         let sample = at(file, "/cases/0/samples/0").as_object_mut().unwrap();
         assert!(sample.remove("point").is_some() && sample.remove("normal").is_some());
     });
-    changed(file, 1, "cases[1].area: no rule", |file| at(file, "/cases/1")["area"] = json!(24.0));
+    damaged(file, 1, "cases[1].area: no rule", |file| at(file, "/cases/1")["area"] = json!(24.0));
     let map = "param-map.json";
-    changed(map, 1, "maps[0].columns[4]: no such column", |file| {
+    damaged(map, 1, "maps[0].columns[4]: no such column", |file| {
         *at(file, "/maps/0/columns/4") = json!("jacobian")
     });
-    changed(map, 1, "maps[0].map: no map of that name", |file| *at(file, "/maps/0/map") = json!("bilinear"));
-    changed(map, 1, "there are no second derivatives at the origin", |file| {
+    damaged(map, 1, "maps[0].map: no map of that name", |file| *at(file, "/maps/0/map") = json!("bilinear"));
+    damaged(map, 1, "there are no second derivatives at the origin", |file| {
         *at(file, "/maps/0/columns/4") = json!("d2x_du2");
     });
 }
@@ -153,7 +126,7 @@ fn what_is_not_known_is_never_passed_over() {
 #[test]
 fn flaws_of_the_file_are_told_with_their_place() {
     let bad = |name: &str, says: &str, pointer: &str, value: Value| {
-        changed(name, 2, says, |file| *at(file, pointer) = value);
+        damaged(name, 2, says, |file| *at(file, pointer) = value);
     };
     let cube = CAGES[0];
     bad(cube, "cases[0].cage.faces[0][1]: vertex 8 does not exist", "/cases/0/cage/faces/0/1", json!(8));
@@ -185,7 +158,7 @@ fn flaws_of_the_file_are_told_with_their_place() {
     bad(map, "7 numbers for 8 columns", "/maps/0/rows/0", json!([0, 0, 0, 0, 0, 0, 0]));
     bad(map, "lie outside", "/maps/0/rows/0/0", json!(-0.1));
     // A case without its cage among cases that have one.
-    changed(cube, 2, "cases[0].cage: this field is missing", |file| {
+    damaged(cube, 2, "cases[0].cage: this field is missing", |file| {
         at(file, "/cases/0").as_object_mut().unwrap().remove("cage");
     });
 }
