@@ -138,6 +138,7 @@ fn edit(dice: &mut Dice, model: &Model) -> Edit {
             let to = if dice.coin() { Extent::Radius(radius) } else { Extent::Like(other) };
             Edit::Expand { curve, to }
         }
+        30 if dice.coin() => Edit::Propagate { surface },
         30 => Edit::Reverse { surface },
         31 => Edit::Release { point },
         32 => match dice.below(4) {

@@ -145,6 +145,15 @@ impl CurveShape {
 }
 
 impl SurfaceShape {
+    /// Gives vertices that the mesh has got a place (the origin, until they are put somewhere) and a wanted length.
+    pub(crate) fn make_room(&mut self) {
+        let slots = self.mesh.vertex_slots();
+        self.positions.resize(slots, DVec3::ZERO);
+        if !self.wanted.is_empty() {
+            self.wanted.resize(slots, self.spacing);
+        }
+    }
+
     /// The vertices whose positions are given by controls, with the control that gives them.
     pub fn controlled(&self) -> impl Iterator<Item = VertexId> + '_ {
         let on_curves = self.embeddings.iter().flat_map(|e| e.vertices.iter().copied());

@@ -88,7 +88,8 @@ impl Mesh {
 
     /// Makes a chain of edges through the places, in order; on a closed path from the last back to the first.
     ///
-    /// Places within a twentieth of an edge or a triangle from a vertex or an edge are taken to be there. No tag is set
+    /// Places within a twentieth of an edge or a triangle from a vertex or an edge are taken to be there (within a thousandth,
+    /// where the path would touch itself otherwise). No tag is set
     /// and none is lost: halves of a split edge keep its tag. An open path may begin and end anywhere, also at the boundary,
     /// and run along it. `positions` guide only; where they are missing or no numbers, the chain is still one.
     ///

@@ -10,7 +10,6 @@ use crate::shape::{EmbeddedCurve, SurfaceShape, edit};
 use crate::surgery::tracing::{Laid, Stop, trace};
 use ductile_mesh::VertexId;
 use ductile_spec::{CurveId, PointId, SurfaceId};
-use glam::DVec3;
 
 /// Lays a curve into a surface, near to where it runs. The surface is carried to it as it relaxes.
 pub(crate) fn follow(model: &mut Model, surface: SurfaceId, id: CurveId) -> Result<(), ModelError> {
@@ -42,15 +41,6 @@ pub(crate) fn follow(model: &mut Model, surface: SurfaceId, id: CurveId) -> Resu
     shape.embeddings.push(EmbeddedCurve { curve: id, vertices: line });
     shape.revision = revision;
     Ok(())
-}
-
-/// Makes the arrays beside a mesh as long as it is.
-fn resize(shape: &mut SurfaceShape) {
-    let slots = shape.mesh.vertex_slots();
-    shape.positions.resize(slots, DVec3::ZERO);
-    if !shape.wanted.is_empty() {
-        shape.wanted.resize(slots, shape.spacing);
-    }
 }
 
 /// A chain, cut at its controls: each part begins and ends at one.
@@ -97,7 +87,7 @@ fn fit(
             let edge = shape.mesh.edge_between(a, b).ok_or(torn)?;
             let middle = shape.positions[a.index()].midpoint(shape.positions[b.index()]);
             let v = shape.mesh.split_edge(edge);
-            resize(shape);
+            shape.make_room();
             shape.positions[v.index()] = middle;
             stretch.insert(longest + 1, v);
             continue;

@@ -119,12 +119,8 @@ pub(crate) fn open(
         Err(CutError::NoEdge(_) | CutError::OnBoundary(_)) => return Err(ModelError::NothingAround(id)),
     }
     let cut = shape.mesh.cut(&edges);
-    let slots = shape.mesh.vertex_slots();
-    let mut origin: Vec<usize> = (0..slots).collect();
-    shape.positions.resize(slots, DVec3::ZERO);
-    if !shape.wanted.is_empty() {
-        shape.wanted.resize(slots, shape.spacing);
-    }
+    shape.make_room();
+    let mut origin: Vec<usize> = (0..shape.mesh.vertex_slots()).collect();
     for (v, copy) in &cut.vertices {
         origin[copy.index()] = v.index();
         shape.positions[copy.index()] = shape.positions[v.index()];

@@ -65,11 +65,7 @@ impl Trace {
         if path.edges.iter().any(|e| shape.mesh.is_source_edge(*e) || shape.mesh.is_boundary_edge(*e)) {
             return Err(ModelError::AlongCurve(surface));
         }
-        let slots = shape.mesh.vertex_slots();
-        shape.positions.resize(slots, DVec3::ZERO);
-        if !shape.wanted.is_empty() {
-            shape.wanted.resize(slots, shape.spacing);
-        }
+        shape.make_room();
         for (v, at) in &path.made {
             shape.positions[v.index()] = *at;
         }

@@ -232,7 +232,7 @@ mod tests {
 
     #[test]
     fn edits_do_what_they_say() {
-        let cube = primitive::cube(1.0);
+        let cube = primitive::cube(1.0).unwrap();
         let moved = move_vertices(&cube, &[(7, DVec3::splat(2.0))]).unwrap();
         assert_eq!(moved.positions()[7], DVec3::splat(2.0));
         assert_eq!(moved.faces(), cube.faces());
@@ -246,7 +246,7 @@ mod tests {
         let open = delete_face(&cube, 0).unwrap();
         assert!(!open.is_closed() && open.euler_characteristic() == 1);
 
-        let longer = split_edge(&primitive::grid(1.0, 1, 1), 0, 1, 0.25).unwrap();
+        let longer = split_edge(&primitive::grid(1.0, 1, 1).unwrap(), 0, 1, 0.25).unwrap();
         assert_eq!(longer.faces()[0], [0, 4, 1, 3, 2]);
         assert_eq!(longer.positions()[4], DVec3::new(-0.25, -0.5, 0.0));
 
@@ -264,7 +264,7 @@ mod tests {
 
     #[test]
     fn what_cannot_be_done_is_refused_by_name() {
-        let cube = primitive::cube(1.0);
+        let cube = primitive::cube(1.0).unwrap();
         let count = 6;
         let is = |done: Result<Cage, EditError>, error: EditError| assert_eq!(done.unwrap_err(), error);
         is(move_vertices(&cube, &[(8, DVec3::ZERO)]), EditError::NoSuchVertex { vertex: 8, count: 8 });
@@ -274,9 +274,9 @@ mod tests {
         let flat = move_vertices(&cube, &[0, 1, 2, 3].map(|v| (v, DVec3::ZERO))).unwrap();
         is(extrude_face(&flat, 0, 1.0), EditError::NoNormal(0));
         is(delete_face(&cube, 9), EditError::NoSuchFace { face: 9, count });
-        is(delete_face(&primitive::grid(1.0, 1, 1), 0), CageError::NoFaces.into());
+        is(delete_face(&primitive::grid(1.0, 1, 1).unwrap(), 0), CageError::NoFaces.into());
         // The faces at two opposite corners of a square of four quads touch in its centre only.
-        let three = delete_face(&primitive::grid(1.0, 2, 2), 0).unwrap();
+        let three = delete_face(&primitive::grid(1.0, 2, 2).unwrap(), 0).unwrap();
         is(delete_face(&three, 2), CageError::TwoFans { vertex: 4 }.into());
         is(split_edge(&cube, 0, 7, 0.5), EditError::NoSuchEdge(0, 7));
         is(split_edge(&cube, 0, 99, 0.5), EditError::NoSuchEdge(0, 99));
@@ -288,7 +288,7 @@ mod tests {
         is(split_face(&cube, 7, 1, 1), EditError::NoSuchFace { face: 7, count });
         is(split_face_at_centre(&cube, 6), EditError::NoSuchFace { face: 6, count });
         // A diagonal that is an edge already would be shared by four faces.
-        let tetrahedron = primitive::tetrahedron(1.0);
+        let tetrahedron = primitive::tetrahedron(1.0).unwrap();
         let opened = delete_face(&tetrahedron, 3).unwrap();
         assert!(split_face(&opened, 0, 0, 1).is_err());
     }
@@ -332,7 +332,7 @@ mod tests {
         /// Whatever is done or refused: a cage stays a cage, over which there is a surface through its vertices.
         #[test]
         fn edits_at_random_leave_a_cage(edits in prop::collection::vec(edit(), 1..25)) {
-            let mut cage = primitive::cube(1.0);
+            let mut cage = primitive::cube(1.0).unwrap();
             for edit in &edits {
                 if let Ok(next) = done(&cage, edit) {
                     cage = next;

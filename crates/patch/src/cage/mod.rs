@@ -7,7 +7,7 @@
 //! ```
 //! use ductile_patch::cage::{CageSurface, Settings, Split, primitive};
 //! let settings = Settings { split: Split::None, ..Settings::default() };
-//! let surface = CageSurface::new(&primitive::cube(1.0), settings)?;
+//! let surface = CageSurface::new(&primitive::cube(1.0)?, settings)?;
 //! let corner = surface.quads()[0][0] as usize;
 //! let there = surface.evaluate(0, 0.0, 0.0)?;
 //! assert!(there.point.distance(surface.positions()[corner]) < 1e-12);

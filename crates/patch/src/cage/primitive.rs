@@ -1,25 +1,28 @@
 //! Cages to begin with, made here: regular solids, a torus, a three-lobed solid, an open grid and an open disc.
+//!
+//! A size that is no number, or too many faces, are refused as in any other cage.
 
-use super::Cage;
+use super::{Cage, CageError};
 use glam::DVec3;
 use std::f64::consts::PI;
 
 /// The golden ratio.
 const PHI: f64 = 1.618_033_988_749_895;
 
-/// A cage whose faces are known to be good.
-fn sound(positions: Vec<DVec3>, faces: Vec<Vec<u32>>) -> Cage {
-    Cage::new(positions, faces).expect("the faces of a built-in cage form a surface, as its test shows")
+/// Most quads of a torus or grid.
+const MOST_QUADS: u64 = 1 << 22;
+
+fn check_count(quads: u64) -> Result<(), CageError> {
+    if quads > MOST_QUADS { Err(CageError::TooMany) } else { Ok(()) }
 }
 
-fn fixed<const N: usize>(size: f64, positions: &[[f64; 3]], faces: &[[u32; N]]) -> Cage {
+fn fixed<const N: usize>(size: f64, positions: &[[f64; 3]], faces: &[[u32; N]]) -> Result<Cage, CageError> {
     let positions = positions.iter().map(|&p| DVec3::from(p) * size).collect();
-    sound(positions, faces.iter().map(|face| face.to_vec()).collect())
+    Cage::new(positions, faces.iter().map(|face| face.to_vec()).collect())
 }
 
 /// The cube with corners at `±size` in each coordinate: all vertices have three faces.
-#[must_use]
-pub fn cube(size: f64) -> Cage {
+pub fn cube(size: f64) -> Result<Cage, CageError> {
     let corners: [[f64; 3]; 8] =
         std::array::from_fn(|i| [1, 2, 4].map(|bit| if i & bit == 0 { -1.0 } else { 1.0 }));
     let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
@@ -27,15 +30,13 @@ pub fn cube(size: f64) -> Cage {
 }
 
 /// The regular tetrahedron in the cube with corners at `±size`.
-#[must_use]
-pub fn tetrahedron(size: f64) -> Cage {
+pub fn tetrahedron(size: f64) -> Result<Cage, CageError> {
     let corners = [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]];
     fixed(size, &corners, &[[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]])
 }
 
 /// The regular octahedron with corners at the distance `size`.
-#[must_use]
-pub fn octahedron(size: f64) -> Cage {
+pub fn octahedron(size: f64) -> Result<Cage, CageError> {
     let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let minus = |p: [f64; 3]| p.map(|c: f64| -c);
     let faces = [[0, 1, 2], [1, 3, 2], [3, 4, 2], [4, 0, 2], [1, 0, 5], [3, 1, 5], [4, 3, 5], [0, 4, 5]];
@@ -80,28 +81,26 @@ const ICOSAHEDRON_FACES: [[u32; 3]; 20] = [
 ];
 
 /// The regular icosahedron with corners at the distance `size`.
-#[must_use]
-pub fn icosahedron(size: f64) -> Cage {
+pub fn icosahedron(size: f64) -> Result<Cage, CageError> {
     fixed(size / libm::sqrt(1.0 + PHI * PHI), &ICOSAHEDRON, &ICOSAHEDRON_FACES)
 }
 
 /// The regular dodecahedron with corners at the distance `size`: the dual of the icosahedron.
-#[must_use]
-pub fn dodecahedron(size: f64) -> Cage {
-    let icosahedron = icosahedron(1.0);
+pub fn dodecahedron(size: f64) -> Result<Cage, CageError> {
+    let icosahedron = icosahedron(1.0)?;
     let centre = |face: &Vec<u32>| face.iter().map(|&v| icosahedron.positions()[v as usize]).sum::<DVec3>();
     let corners: Vec<DVec3> =
         icosahedron.faces().iter().map(|face| centre(face).normalize_or_zero() * size).collect();
     let links = icosahedron.links();
     let face = |vertex: usize| links.fan(vertex).map(|h| super::links::name(links.face(h))).collect();
-    sound(corners, (0..icosahedron.positions().len()).map(face).collect())
+    Cage::new(corners, (0..icosahedron.positions().len()).map(face).collect())
 }
 
 /// A torus about the z axis of `around` times `across` quads (3 at least each): all vertices have four faces. Radii of the centre circle and of
 /// the tube.
-#[must_use]
-pub fn torus(radius: f64, tube: f64, around: u32, across: u32) -> Cage {
+pub fn torus(radius: f64, tube: f64, around: u32, across: u32) -> Result<Cage, CageError> {
     let (around, across) = (around.max(3), across.max(3));
+    check_count(u64::from(around) * u64::from(across))?;
     let circle = |step: u32, of: u32| libm::sincos(2.0 * PI * f64::from(step) / f64::from(of));
     let (mut positions, mut faces) = (Vec::new(), Vec::new());
     for i in 0..around {
@@ -118,13 +117,12 @@ pub fn torus(radius: f64, tube: f64, around: u32, across: u32) -> Cage {
             ]);
         }
     }
-    sound(positions, faces)
+    Cage::new(positions, faces)
 }
 
 /// A three-lobed solid of quads with a hole through each lobe (genus 3), after the paper's figure 4: vertices have three to six
 /// faces. `size` is about its radius; it lies in the xy plane.
-#[must_use]
-pub fn trebol(size: f64) -> Cage {
+pub fn trebol(size: f64) -> Result<Cage, CageError> {
     // Seen from above: six rays meet in the centre O; a lobe has the outline O, notch before, shoulder, tip, shoulder, notch
     // after, and a hexagonal hole; between two lobes a web hangs in the notch.
     let place = |turn: u32, x: f64, radius: f64, degrees: f64| {
@@ -153,10 +151,10 @@ pub fn trebol(size: f64) -> Cage {
 }
 
 /// The solid between a planar mesh moved up and its mirror image moved down, with walls along the boundary.
-fn thickened(plane: &[DVec3], top: Vec<Vec<u32>>, size: f64) -> Cage {
+fn thickened(plane: &[DVec3], top: Vec<Vec<u32>>, size: f64) -> Result<Cage, CageError> {
     let height = 0.28;
     let count = super::links::name(plane.len());
-    let flat = sound(plane.to_vec(), top.clone());
+    let flat = Cage::new(plane.to_vec(), top.clone())?;
     let links = flat.links();
     let up = plane.iter().map(|p| (*p + DVec3::Z * height) * size);
     let down = plane.iter().map(|p| (*p - DVec3::Z * height) * size);
@@ -166,13 +164,13 @@ fn thickened(plane: &[DVec3], top: Vec<Vec<u32>>, size: f64) -> Cage {
         let [a, b] = [links.origin(h), links.origin(links.after(h, 1))].map(super::links::name);
         faces.push(vec![b, a, a + count, b + count]);
     }
-    sound(up.chain(down).collect(), faces)
+    Cage::new(up.chain(down).collect(), faces)
 }
 
 /// An open grid of `columns` times `rows` quads (1 at least each) of side `size`, centred in the xy plane, its normal up.
-#[must_use]
-pub fn grid(size: f64, columns: u32, rows: u32) -> Cage {
+pub fn grid(size: f64, columns: u32, rows: u32) -> Result<Cage, CageError> {
     let (columns, rows) = (columns.max(1), rows.max(1));
+    check_count(u64::from(columns) * u64::from(rows))?;
     let (mut positions, mut faces) = (Vec::new(), Vec::new());
     for j in 0..=rows {
         for i in 0..=columns {
@@ -184,20 +182,20 @@ pub fn grid(size: f64, columns: u32, rows: u32) -> Cage {
             }
         }
     }
-    sound(positions, faces)
+    Cage::new(positions, faces)
 }
 
 /// An open disc of `sectors` quads (3 at least) that meet in its centre, in the xy plane, its normal up.
-#[must_use]
-pub fn disc(radius: f64, sectors: u32) -> Cage {
+pub fn disc(radius: f64, sectors: u32) -> Result<Cage, CageError> {
     let sectors = sectors.max(3);
+    check_count(u64::from(sectors))?;
     let around = 2 * sectors;
     let rim = (0..around).map(|k| {
         let (sin, cos) = libm::sincos(PI * f64::from(k) / f64::from(sectors));
         DVec3::new(radius * cos, radius * sin, 0.0)
     });
     let face = |k: u32| vec![0, 1 + (2 * k + around - 1) % around, 1 + 2 * k, 2 + 2 * k];
-    sound(std::iter::once(DVec3::ZERO).chain(rim).collect(), (0..sectors).map(face).collect())
+    Cage::new(std::iter::once(DVec3::ZERO).chain(rim).collect(), (0..sectors).map(face).collect())
 }
 
 #[cfg(test)]
@@ -216,13 +214,13 @@ mod tests {
     #[test]
     fn solids_are_closed_and_face_outward() {
         let solids = [
-            (cube(1.0), 2, 4),
-            (tetrahedron(1.0), 2, 3),
-            (octahedron(1.0), 2, 3),
-            (icosahedron(1.0), 2, 3),
-            (dodecahedron(1.0), 2, 5),
-            (torus(3.0, 1.0, 8, 4), 0, 4),
-            (torus(3.0, 1.0, 0, 0), 0, 4),
+            (cube(1.0).unwrap(), 2, 4),
+            (tetrahedron(1.0).unwrap(), 2, 3),
+            (octahedron(1.0).unwrap(), 2, 3),
+            (icosahedron(1.0).unwrap(), 2, 3),
+            (dodecahedron(1.0).unwrap(), 2, 5),
+            (torus(3.0, 1.0, 8, 4).unwrap(), 0, 4),
+            (torus(3.0, 1.0, 0, 0).unwrap(), 0, 4),
         ];
         for (solid, euler, sides) in solids {
             assert!(solid.is_closed());
@@ -230,12 +228,12 @@ mod tests {
             assert!(solid.faces().iter().all(|face| face.len() == sides));
             assert!(volume(&solid) > 0.0);
         }
-        assert!((volume(&cube(1.0)) - 48.0).abs() < 1e-12);
+        assert!((volume(&cube(1.0).unwrap()) - 48.0).abs() < 1e-12);
     }
 
     #[test]
     fn the_trebol_has_three_holes_and_vertices_of_many_kinds() {
-        let solid = trebol(2.0);
+        let solid = trebol(2.0).unwrap();
         assert!(solid.is_closed() && volume(&solid) > 0.0);
         assert_eq!(solid.euler_characteristic(), 2 - 2 * 3);
         let mut valences: Vec<usize> = (0..solid.positions().len()).map(|v| solid.valence(v)).collect();
@@ -245,14 +243,29 @@ mod tests {
     }
 
     #[test]
+    fn what_is_no_cage_is_refused() {
+        for bad in [cube(f64::NAN), trebol(f64::INFINITY), dodecahedron(1e70), torus(f64::NAN, 1.0, 8, 4)] {
+            assert!(matches!(bad, Err(CageError::Position { .. })), "{bad:?}");
+        }
+        let many = u32::MAX;
+        for bad in [torus(3.0, 1.0, many, many), grid(1.0, many, 2), disc(1.0, many)] {
+            assert_eq!(bad.err(), Some(CageError::TooMany));
+        }
+        assert!(matches!(disc(1.0, 300), Err(CageError::TooManyFaces { .. })), "{:?}", disc(1.0, 300));
+    }
+
+    #[test]
     fn open_cages_have_one_boundary() {
-        for (cage, euler) in
-            [(grid(1.0, 3, 2), 1), (grid(1.0, 0, 0), 1), (disc(1.0, 5), 1), (disc(1.0, 0), 1)]
-        {
+        for (cage, euler) in [
+            (grid(1.0, 3, 2).unwrap(), 1),
+            (grid(1.0, 0, 0).unwrap(), 1),
+            (disc(1.0, 5).unwrap(), 1),
+            (disc(1.0, 0).unwrap(), 1),
+        ] {
             assert!(!cage.is_closed());
             assert_eq!(cage.euler_characteristic(), euler);
             assert!(cage.faces().iter().all(|face| face.len() == 4));
         }
-        assert_eq!(disc(1.0, 5).valence(0), 5);
+        assert_eq!(disc(1.0, 5).unwrap().valence(0), 5);
     }
 }

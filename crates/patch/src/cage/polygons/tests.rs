@@ -37,7 +37,7 @@ fn faces_that_form_no_surface_are_refused_by_name() {
 /// Two closed fans at one vertex: two tetrahedra that touch.
 #[test]
 fn solids_that_touch_in_a_vertex_are_refused() {
-    let solid = primitive::tetrahedron(1.0);
+    let solid = primitive::tetrahedron(1.0).unwrap();
     let mut positions = solid.positions().to_vec();
     positions.extend(solid.positions()[1..].iter().map(|p| *p * 2.0 + DVec3::X));
     let mut faces = solid.faces().to_vec();

@@ -20,17 +20,17 @@ fn shaken(cage: &Cage, by: f64, seed: u64) -> Cage {
 fn family() -> Vec<Cage> {
     let wide = |p: &DVec3| *p * DVec3::new(1.0, 1.1, 0.9);
     let solids = [
-        primitive::cube(1.0),
-        primitive::torus(3.0, 1.0, 8, 4),
-        primitive::icosahedron(1.5),
-        primitive::tetrahedron(1.0),
-        primitive::octahedron(1.0),
-        primitive::dodecahedron(2.0),
-        primitive::trebol(2.0),
-        primitive::grid(1.0, 3, 3),
-        primitive::grid(1.0, 1, 2),
-        primitive::disc(1.0, 7),
-        primitive::disc(1.0, 8),
+        primitive::cube(1.0).unwrap(),
+        primitive::torus(3.0, 1.0, 8, 4).unwrap(),
+        primitive::icosahedron(1.5).unwrap(),
+        primitive::tetrahedron(1.0).unwrap(),
+        primitive::octahedron(1.0).unwrap(),
+        primitive::dodecahedron(2.0).unwrap(),
+        primitive::trebol(2.0).unwrap(),
+        primitive::grid(1.0, 3, 3).unwrap(),
+        primitive::grid(1.0, 1, 2).unwrap(),
+        primitive::disc(1.0, 7).unwrap(),
+        primitive::disc(1.0, 8).unwrap(),
     ];
     let turned =
         |cage: &Cage| Cage::new(cage.positions().iter().map(wide).collect(), cage.faces().to_vec()).unwrap();
@@ -103,9 +103,11 @@ fn vertices_are_met_and_edges_join() {
 /// With the closed map and a blend of second order curvatures agree too; with the paper's map they do not.
 #[test]
 fn curvature_is_continuous_with_the_smooth_map_only() {
-    for (number, cage) in
-        [(3_u64, primitive::cube(1.0)), (4, primitive::icosahedron(1.5)), (5, primitive::trebol(2.0))]
-    {
+    for (number, cage) in [
+        (3_u64, primitive::cube(1.0).unwrap()),
+        (4, primitive::icosahedron(1.5).unwrap()),
+        (5, primitive::trebol(2.0).unwrap()),
+    ] {
         let cage = shaken(&cage, 0.1, number);
         let jump = |map| seams(&CageSurface::new(&cage, settings(&cage, map, Blend::default())).unwrap()).2;
         assert!(jump(Map::Smooth) < 1e-9, "{number}: {:e}", jump(Map::Smooth));
@@ -116,7 +118,7 @@ fn curvature_is_continuous_with_the_smooth_map_only() {
 /// The control that must fail: with the bilinear map of the paper's figure 3a neighbours meet at an angle.
 #[test]
 fn the_bilinear_map_leaves_kinks() {
-    let cage = shaken(&primitive::cube(1.0), 0.1, 9);
+    let cage = shaken(&primitive::cube(1.0).unwrap(), 0.1, 9);
     let surface = CageSurface::new(&cage, settings(&cage, Map::Smooth, Blend::default())).unwrap();
     let blender = Blender::new(Blend::default()).unwrap();
     let bilinear = |quad: usize, u: f64, v: f64| {
@@ -146,7 +148,7 @@ fn the_bilinear_map_leaves_kinks() {
 /// The control that must fail: a blend that is not flat at its ends.
 #[test]
 fn a_blend_that_is_not_flat_leaves_kinks() {
-    let cage = shaken(&primitive::cube(1.0), 0.1, 9);
+    let cage = shaken(&primitive::cube(1.0).unwrap(), 0.1, 9);
     let surface = CageSurface::new(&cage, settings(&cage, Map::Smooth, Blend::default())).unwrap();
     let slanted = |quad: usize, u: f64, v: f64| {
         let mut sum = [DVec3::ZERO; 6];
@@ -167,7 +169,7 @@ fn a_blend_that_is_not_flat_leaves_kinks() {
 
 #[test]
 fn a_cube_has_the_recorded_middle() {
-    let cage = primitive::cube(1.0);
+    let cage = primitive::cube(1.0).unwrap();
     let surface = CageSurface::new(&cage, settings(&cage, Map::Rational, Blend::default())).unwrap();
     for quad in 0..6 {
         let middle = surface.evaluate(quad, 0.5, 0.5).unwrap();
@@ -204,9 +206,11 @@ fn derivatives_agree_with_differences() {
 /// Curvature is attained at irregular vertices: every sector tends to that of the vertex's own surface.
 #[test]
 fn sectors_agree_in_the_curvature_of_a_vertex() {
-    for (number, cage) in
-        [(1_u64, primitive::cube(1.0)), (2, primitive::icosahedron(1.5)), (3, primitive::trebol(2.0))]
-    {
+    for (number, cage) in [
+        (1_u64, primitive::cube(1.0).unwrap()),
+        (2, primitive::icosahedron(1.5).unwrap()),
+        (3, primitive::trebol(2.0).unwrap()),
+    ] {
         let cage = shaken(&cage, 0.1, number);
         let surface = CageSurface::new(&cage, settings(&cage, Map::Smooth, Blend::default())).unwrap();
         for h in 0..surface.links.half_edge_count() {
@@ -229,7 +233,7 @@ fn sectors_agree_in_the_curvature_of_a_vertex() {
 
 #[test]
 fn what_cannot_be_asked_is_refused() {
-    let solid = primitive::icosahedron(1.0);
+    let solid = primitive::icosahedron(1.0).unwrap();
     let none = Settings { split: Split::None, ..Settings::default() };
     assert_eq!(CageSurface::new(&solid, none).unwrap_err(), CageError::NotQuads { face: 0, corners: 3 });
     let mut surface = CageSurface::new(&solid, Settings::default()).unwrap();
@@ -249,7 +253,7 @@ fn what_cannot_be_asked_is_refused() {
 #[test]
 fn borrowing_is_nearer_to_a_sphere_than_mirroring() {
     let lift = |p: &DVec3| DVec3::new(p.x, p.y, libm::sqrt(1.0 - p.x * p.x - p.y * p.y));
-    let flat = primitive::grid(0.12, 8, 8);
+    let flat = primitive::grid(0.12, 8, 8).unwrap();
     let cap = Cage::new(flat.positions().iter().map(lift).collect(), flat.faces().to_vec()).unwrap();
     let worst = |boundary, from: f64, to: f64| {
         let rule = Settings { boundary, ..settings(&cap, Map::Smooth, Blend::default()) };

@@ -17,13 +17,13 @@ fn irregular(cage: &Cage) -> Cage {
 
 fn family() -> [Cage; 7] {
     [
-        primitive::cube(1.0),
-        primitive::icosahedron(1.0),
-        primitive::torus(3.0, 1.0, 6, 5),
-        primitive::trebol(2.0),
-        primitive::grid(1.0, 4, 3),
-        primitive::grid(1.0, 1, 1),
-        primitive::disc(2.0, 7),
+        primitive::cube(1.0).unwrap(),
+        primitive::icosahedron(1.0).unwrap(),
+        primitive::torus(3.0, 1.0, 6, 5).unwrap(),
+        primitive::trebol(2.0).unwrap(),
+        primitive::grid(1.0, 4, 3).unwrap(),
+        primitive::grid(1.0, 1, 1).unwrap(),
+        primitive::disc(2.0, 7).unwrap(),
     ]
     .map(|cage| irregular(&cage))
 }
@@ -84,27 +84,27 @@ fn the_result_is_watertight() {
 
 #[test]
 fn quads_that_look_alike_share_a_table() {
-    let torus = surface(&primitive::torus(3.0, 1.0, 12, 8), Map::Smooth, Blend::default());
+    let torus = surface(&primitive::torus(3.0, 1.0, 12, 8).unwrap(), Map::Smooth, Blend::default());
     assert_eq!(Tessellation::new(&torus, 4).unwrap().patterns.len(), 1);
-    let grid = surface(&primitive::grid(1.0, 9, 9), Map::Smooth, Blend::default());
+    let grid = surface(&primitive::grid(1.0, 9, 9).unwrap(), Map::Smooth, Blend::default());
     assert!(Tessellation::new(&grid, 4).unwrap().patterns.len() <= 25);
 }
 
 #[test]
 fn senseless_sizes_are_refused() {
-    let cube = surface(&primitive::cube(1.0), Map::Smooth, Blend::default());
+    let cube = surface(&primitive::cube(1.0).unwrap(), Map::Smooth, Blend::default());
     assert_eq!(Tessellation::new(&cube, 0).unwrap_err(), CageError::Resolution(0));
     assert_eq!(Tessellation::new(&cube, 257).unwrap_err(), CageError::Resolution(257));
-    let many = surface(&primitive::grid(1.0, 40, 40), Map::Smooth, Blend::default());
+    let many = surface(&primitive::grid(1.0, 40, 40).unwrap(), Map::Smooth, Blend::default());
     assert!(matches!(Tessellation::new(&many, 256), Err(CageError::TooLarge(_))));
-    let wheel = surface(&primitive::disc(1.0, 200), Map::Smooth, Blend::default());
+    let wheel = surface(&primitive::disc(1.0, 200).unwrap(), Map::Smooth, Blend::default());
     assert!(matches!(Tessellation::new(&wheel, 256), Err(CageError::TooLarge(_))));
 }
 
 /// A vertex that no face uses has no sample and disturbs nothing.
 #[test]
 fn unused_vertices_have_no_samples() {
-    let cube = primitive::cube(1.0);
+    let cube = primitive::cube(1.0).unwrap();
     let mut positions = vec![DVec3::splat(9.0)];
     positions.extend(cube.positions());
     let faces = cube.faces().iter().map(|face| face.iter().map(|v| v + 1).collect()).collect();
@@ -144,7 +144,7 @@ proptest! {
 /// In a regular cage one vertex enters four by four quads.
 #[test]
 fn one_vertex_touches_sixteen_quads() {
-    let cage = primitive::torus(3.0, 1.0, 12, 10);
+    let cage = primitive::torus(3.0, 1.0, 12, 10).unwrap();
     let mut surface = surface(&cage, Map::Smooth, Blend::default());
     let mut tessellation = Tessellation::new(&surface, 4).unwrap();
     let mut positions = cage.positions().to_vec();
