@@ -1,8 +1,9 @@
 //! Why the modeler refuses: typed, with the offending thing in the message, in words for the designer.
 
 use ductile_mesh::{BridgeError, BuildError, GlueError, IntersectError, PathError};
+use ductile_patch::cage::CageError;
 use ductile_solver::SolverError;
-use ductile_spec::{CurveId, Defect, LinkError, PointId, SurfaceId, TextError};
+use ductile_spec::{CurveId, Defect, Document, LinkError, PointId, SurfaceId, SurfaceKind, TextError};
 use thiserror::Error;
 
 /// Why a request was refused. The model is as it was before.
@@ -35,6 +36,40 @@ pub enum ModelError {
         what: String,
         /// What the solver says.
         reason: SolverError,
+    },
+    /// The faces of a cage form no surface, or one that cannot be built.
+    #[error("{surface}: {reason}")]
+    Cage {
+        /// Which surface.
+        surface: SurfaceId,
+        /// What is wrong with it.
+        reason: CageError,
+    },
+    /// The surface is of another kind than the act can deal with.
+    #[error("{surface} is {kind}: {act} works on fair surfaces only")]
+    OnlyFair {
+        /// Which surface.
+        surface: SurfaceId,
+        /// What it is.
+        kind: &'static str,
+        /// What was asked for, in the words of the page.
+        act: &'static str,
+    },
+    /// A cage has the point as a vertex.
+    #[error("{point} is a vertex of the cage of {surface}: delete its faces or the surface first")]
+    NeededByCage {
+        /// The surface over the cage.
+        surface: SurfaceId,
+        /// The point.
+        point: PointId,
+    },
+    /// A fill has a stretch of the curve as a side.
+    #[error("{curve} is a side of {surface}: delete the surface first")]
+    NeededByFill {
+        /// The fill.
+        surface: SurfaceId,
+        /// The curve.
+        curve: CurveId,
     },
     /// There is no such point.
     #[error("{0} does not exist")]
@@ -317,4 +352,17 @@ pub enum ModelError {
     /// Another act has to be finished first.
     #[error("finish the drag first")]
     Dragging,
+}
+
+impl ModelError {
+    /// This error in view of a document: a surface that an act did not find among the fair ones may be of another kind.
+    pub(crate) fn of_kind(self, document: &Document, act: &'static str) -> Self {
+        let Self::NoSurface(surface) = self else { return self };
+        let kind = match document.kind_of(surface) {
+            Some(SurfaceKind::Cage) => "a surface over a cage",
+            Some(SurfaceKind::Fill) => "a patch that fills a loop",
+            Some(SurfaceKind::Fair) | None => return self,
+        };
+        Self::OnlyFair { surface, kind, act }
+    }
 }

@@ -5,9 +5,10 @@ use crate::model::Model;
 use crate::region;
 use crate::relax::Relaxer;
 use crate::shape::SurfaceShape;
+use ductile_mesh::Mesh;
 use ductile_spec::{
-    CurveId, CurveRole, CurveSpan, NO_REGION, PointEntry, PointId, PointRole, RegionEntry, Structure,
-    SurfaceId, SurfaceSpan, SurfaceSummary, VERTEX_FLOATS,
+    CurveId, CurveRole, CurveSpan, NO_REGION, Net, PointEntry, PointId, PointRole, RegionEntry, Structure,
+    SurfaceId, SurfaceKind, SurfaceSpan, SurfaceSummary, VERTEX_FLOATS,
 };
 use glam::DVec3;
 
@@ -40,10 +41,19 @@ impl Frame {
                 push(&mut self.floats, *normal);
             }
         }
+        for shape in model.patches.values() {
+            for (at, normal) in shape.positions().iter().zip(shape.normals()) {
+                push(&mut self.floats, *at);
+                push(&mut self.floats, *normal);
+            }
+        }
         for node in model.curves.values().flat_map(|shape| &shape.nodes) {
             push(&mut self.floats, *node);
         }
         for at in model.document.points.values() {
+            push(&mut self.floats, *at);
+        }
+        for at in model.patches.values().flat_map(|shape| shape.net().0) {
             push(&mut self.floats, *at);
         }
         changed
@@ -60,7 +70,7 @@ impl Frame {
             self.indices.extend(bound.triangles().iter().flatten().map(|v| v + first_vertex));
             let vertex_count = count(bound.vertices().len());
             let index_count = count(self.indices.len()) - first_index;
-            let summary = summarise(shape);
+            let summary = summarise(&shape.mesh);
             divide(&mut structure, *id, shape, model);
             structure.surfaces.push(SurfaceSpan {
                 id: *id,
@@ -68,10 +78,12 @@ impl Frame {
                 vertex_count,
                 first_index,
                 index_count,
+                kind: SurfaceKind::Fair,
                 summary,
             });
             first_vertex += vertex_count;
         }
+        self.append_patches(&mut structure, model, first_vertex);
         let mut first = 0;
         for (id, shape) in &model.curves {
             let samples = count(shape.nodes.len());
@@ -94,6 +106,35 @@ impl Frame {
             structure.region_of_triangle.clear();
         }
         self.structure = structure;
+    }
+
+    /// Exact surfaces come after the fair ones, and their nets.
+    fn append_patches(&mut self, structure: &mut Structure, model: &Model, mut first_vertex: u32) {
+        let mut first = 0;
+        for (id, shape) in &model.patches {
+            let first_index = count(self.indices.len());
+            self.indices.extend(shape.triangles().iter().flatten().map(|v| v + first_vertex));
+            let vertex_count = count(shape.positions().len());
+            structure.region_of_triangle.extend(shape.triangles().iter().map(|_| NO_REGION));
+            structure.surfaces.push(SurfaceSpan {
+                id: *id,
+                first_vertex,
+                vertex_count,
+                first_index,
+                index_count: count(self.indices.len()) - first_index,
+                kind: shape.kind(),
+                summary: shape.summary(),
+            });
+            first_vertex += vertex_count;
+            let (vertices, edges) = shape.net();
+            structure.nets.push(Net {
+                surface: *id,
+                first,
+                count: count(vertices.len()),
+                edges: edges.to_vec(),
+            });
+            first += count(vertices.len());
+        }
     }
 }
 
@@ -118,6 +159,7 @@ fn divide(structure: &mut Structure, id: SurfaceId, shape: &SurfaceShape, model:
 /// Names a structure: what it is made of, in which connectivity and with which roles.
 fn key(model: &Model) -> Vec<(u32, u64)> {
     let surfaces = model.surfaces.iter().map(|(id, shape)| (id.0, shape.revision));
+    let patches = model.patches.iter().map(|(id, shape)| (id.0, shape.revision()));
     let curves = model.curves.iter().map(|(id, shape)| (id.0, shape.revision));
     let points = model.document.points.keys().map(|id| (id.0, 0));
     let uses = model
@@ -133,6 +175,8 @@ fn key(model: &Model) -> Vec<(u32, u64)> {
     let mark = [(u32::MAX, u64::MAX)];
     surfaces
         .chain(mark)
+        .chain(patches)
+        .chain(mark)
         .chain(curves)
         .chain(mark)
         .chain(points)
@@ -143,8 +187,9 @@ fn key(model: &Model) -> Vec<(u32, u64)> {
         .collect()
 }
 
-fn summarise(shape: &SurfaceShape) -> SurfaceSummary {
-    let summary = ductile_mesh::summary(&shape.mesh);
+/// The topology of a mesh.
+pub(crate) fn summarise(mesh: &Mesh) -> SurfaceSummary {
+    let summary = ductile_mesh::summary(mesh);
     SurfaceSummary {
         euler: i32::try_from(summary.euler).unwrap_or(i32::MIN),
         boundaries: count(summary.boundaries),
@@ -171,7 +216,9 @@ fn curve_role(model: &Model, id: CurveId) -> CurveRole {
 fn point_role(model: &Model, id: PointId) -> PointRole {
     if model.document.curves_through(id).next().is_some() {
         PointRole::Curve
-    } else if model.surfaces.values().any(|shape| shape.pins.iter().any(|pin| pin.point == id)) {
+    } else if model.surfaces.values().any(|shape| shape.pins.iter().any(|pin| pin.point == id))
+        || model.document.cages_on(id).next().is_some()
+    {
         PointRole::Surface
     } else {
         PointRole::Free

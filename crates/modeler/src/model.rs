@@ -2,6 +2,7 @@
 
 use crate::density;
 use crate::error::ModelError;
+use crate::patch::{self, PatchShape};
 use crate::rehydrate::{build_curve, build_surface, check_extents};
 use crate::shape::{CurveShape, SurfaceShape, edit};
 use ductile_spec::{CurveId, Document, PointId, SurfaceId};
@@ -23,6 +24,8 @@ pub struct Model {
     pub curves: BTreeMap<CurveId, Arc<CurveShape>>,
     /// The surfaces as they are now.
     pub surfaces: BTreeMap<SurfaceId, Arc<SurfaceShape>>,
+    /// The exact surfaces as they are now.
+    pub patches: BTreeMap<SurfaceId, Arc<PatchShape>>,
     revisions: u64,
 }
 
@@ -39,6 +42,9 @@ impl Model {
         }
         for id in model.document.surfaces.keys().copied().collect::<Vec<_>>() {
             model.build_surface(id)?;
+        }
+        for id in model.document.cages.keys().copied().collect::<Vec<_>>() {
+            model.build_patch(id)?;
         }
         Ok(model)
     }
@@ -69,6 +75,10 @@ impl Model {
             self.revisions += 1;
             edit(shape).revision = self.revisions;
         }
+        for shape in self.patches.values_mut() {
+            self.revisions += 1;
+            edit(shape).set_revision(self.revisions);
+        }
     }
 
     /// Keeps revisions unique after the model was replaced by an older or a new one.
@@ -97,6 +107,14 @@ impl Model {
         Ok(())
     }
 
+    /// Builds an exact surface of the document, from its controls as they are now.
+    pub(crate) fn build_patch(&mut self, id: SurfaceId) -> Result<(), ModelError> {
+        let revision = self.next_revision();
+        let shape = patch::build(self, id, revision)?;
+        self.patches.insert(id, Arc::new(shape));
+        Ok(())
+    }
+
     /// Target edge length of the document: what it states, or a part of its size.
     #[must_use]
     pub fn spacing(&self) -> f64 {
@@ -119,15 +137,17 @@ impl Model {
     pub(crate) fn shape_bytes(&self) -> usize {
         let surfaces: usize = self.surfaces.values().map(|s| s.bytes()).sum();
         let curves: usize = self.curves.values().map(|c| 24 * c.nodes.len()).sum();
-        surfaces + curves
+        let patches: usize = self.patches.values().map(|p| p.bytes()).sum();
+        surfaces + curves + patches
     }
 
-    /// Mesh nodes of all surfaces and free curves.
+    /// Mesh nodes of all surfaces and free curves, and vertices of all exact surfaces.
     #[must_use]
     pub fn node_count(&self) -> usize {
         let surfaces: usize = self.surfaces.values().map(|s| s.mesh.vertex_count()).sum();
         let curves: usize = self.curves.values().map(|c| c.nodes.len()).sum();
-        surfaces + curves
+        let patches: usize = self.patches.values().map(|p| p.positions().len()).sum();
+        surfaces + curves + patches
     }
 }
 

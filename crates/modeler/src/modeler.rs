@@ -7,6 +7,7 @@ use crate::grab::Grab;
 use crate::history::{History, State};
 use crate::model::Model;
 use crate::operation;
+use crate::patch;
 use crate::relax::Relaxer;
 use ductile_mesh::Mesh;
 use ductile_mesh::io::obj;
@@ -88,9 +89,13 @@ impl Modeler {
                 reply.exported = outcome.exported;
                 reply.meeting = outcome.meeting;
             }
-            Err(error) => reply.refused = Some(Refusal { act: act.to_owned(), reason: error.to_string() }),
+            Err(error) => {
+                let reason = error.of_kind(&self.model.document, act).to_string();
+                reply.refused = Some(Refusal { act: act.to_owned(), reason });
+            }
         }
         self.relaxer.bind(&self.model);
+        patch::follow(&mut self.model);
         let changed = self.frame.write(&self.model, &self.relaxer);
         if changed || self.describe {
             reply.structure = Some(self.frame.structure.clone());
@@ -301,7 +306,7 @@ impl Modeler {
 
     fn export(&self, format: ExportFormat) -> Result<Outcome, ModelError> {
         let ExportFormat::Obj = format;
-        if self.model.surfaces.is_empty() {
+        if self.model.surfaces.is_empty() && self.model.patches.is_empty() {
             return Err(ModelError::NothingToExport);
         }
         let (mut positions, mut normals, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
@@ -311,6 +316,12 @@ impl Modeler {
             positions.extend(bound.vertices().iter().map(|v| shape.positions[v.index()]));
             normals.extend_from_slice(bound.normals());
             triangles.extend(bound.triangles().iter().map(|t| t.map(|v| v + first)));
+        }
+        for shape in self.model.patches.values() {
+            let first = u32::try_from(positions.len()).unwrap_or(u32::MAX);
+            positions.extend_from_slice(shape.positions());
+            normals.extend_from_slice(shape.normals());
+            triangles.extend(shape.triangles().iter().map(|t| t.map(|v| v + first)));
         }
         let mesh = Mesh::from_triangles(positions.len(), &triangles)
             .map_err(|reason| ModelError::NotASurface { surface: SurfaceId(0), reason })?;

@@ -5,6 +5,10 @@
 //! topology, given by a *skeleton* (the "dehydrated" mesh of thesis section 5.2), and controls that it
 //! must meet. All lengths are model units.
 
+use crate::cage::Cage;
+use crate::displacement::Displaced;
+use crate::fill::Fill;
+use crate::frame::SurfaceKind;
 use crate::id::{CurveId, PointId, SurfaceId};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -30,8 +34,14 @@ pub struct Document {
     pub points: BTreeMap<PointId, DVec3>,
     /// The control curves.
     pub curves: BTreeMap<CurveId, Curve>,
-    /// The surfaces.
+    /// The fair surfaces. They, the cages and the fills are all surfaces: an identity is given once among the three.
     pub surfaces: BTreeMap<SurfaceId, Surface>,
+    /// The surfaces over cages.
+    pub cages: BTreeMap<SurfaceId, Cage>,
+    /// The patches that fill loops of curves.
+    pub fills: BTreeMap<SurfaceId, Fill>,
+    /// What moves the inside of surfaces, of whatever kind.
+    pub displacements: BTreeMap<SurfaceId, Displaced>,
 }
 
 /// What a fair shape minimises.
@@ -270,7 +280,34 @@ impl Document {
     /// As [`Self::next_point`], for surfaces.
     #[must_use]
     pub fn next_surface(&self) -> SurfaceId {
-        SurfaceId(self.surfaces.last_key_value().map_or(1, |(id, _)| id.0.saturating_add(1)))
+        let last = |id: Option<&SurfaceId>| id.map_or(0, |id| id.0);
+        let fair = last(self.surfaces.keys().next_back());
+        let exact = last(self.cages.keys().next_back()).max(last(self.fills.keys().next_back()));
+        SurfaceId(fair.max(exact).saturating_add(1))
+    }
+
+    /// What kind of surface has this identity, if any.
+    #[must_use]
+    pub fn kind_of(&self, surface: SurfaceId) -> Option<SurfaceKind> {
+        if self.surfaces.contains_key(&surface) {
+            Some(SurfaceKind::Fair)
+        } else if self.cages.contains_key(&surface) {
+            Some(SurfaceKind::Cage)
+        } else {
+            self.fills.contains_key(&surface).then_some(SurfaceKind::Fill)
+        }
+    }
+
+    /// The cages that have a point as a vertex, in order of identity.
+    pub fn cages_on(&self, point: PointId) -> impl Iterator<Item = SurfaceId> + '_ {
+        let has = move |cage: &Cage| cage.faces.iter().flatten().any(|corner| *corner == point);
+        self.cages.iter().filter(move |(_, cage)| has(cage)).map(|(id, _)| *id)
+    }
+
+    /// The fills that have a stretch of a curve as a side, in order of identity.
+    pub fn fills_on(&self, curve: CurveId) -> impl Iterator<Item = SurfaceId> + '_ {
+        let has = move |fill: &Fill| fill.sides.iter().any(|side| side.curve == curve);
+        self.fills.iter().filter(move |(_, fill)| has(fill)).map(|(id, _)| *id)
     }
 
     /// The curves that pass through a point, in order of identity.

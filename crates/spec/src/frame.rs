@@ -1,10 +1,11 @@
 //! The layout of a frame: what the worker sends to be drawn.
 //!
-//! The numbers of a frame travel as one `Float32Array`, in three parts one after the other:
+//! The numbers of a frame travel as one `Float32Array`, in four parts one after the other:
 //!
 //! 1. the surface vertices, [`VERTEX_FLOATS`] floats each: position x y z, unit normal x y z;
 //! 2. the curve samples, 3 floats each: position;
-//! 3. the control points, 3 floats each: position.
+//! 3. the control points, 3 floats each: position;
+//! 4. the vertices of control nets, 3 floats each: position.
 //!
 //! How many there are of each and what they belong to is the [`Structure`]; it travels, together with the
 //! triangle indices (a `Uint32Array`), only when its version changes.
@@ -69,6 +70,33 @@ pub struct Structure {
     pub regions: Vec<RegionEntry>,
     /// Per triangle its place in `regions`; empty when there are none. Surfaces in one piece have [`NO_REGION`].
     pub region_of_triangle: Vec<u16>,
+    /// The control nets of exact surfaces, in the order of their vertices.
+    pub nets: Vec<Net>,
+}
+
+/// The control net of an exact surface.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Net {
+    /// Whose it is.
+    pub surface: SurfaceId,
+    /// Its first vertex among those of all nets.
+    pub first: u32,
+    /// How many vertices it has.
+    pub count: u32,
+    /// Its edges, pairs of its vertices counted from its first.
+    pub edges: Vec<[u32; 2]>,
+}
+
+/// What a surface is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SurfaceKind {
+    /// A fair surface, approximated by a mesh that relaxes.
+    #[default]
+    Fair,
+    /// An exact surface over a cage.
+    Cage,
+    /// An exact patch in a loop of curves.
+    Fill,
 }
 
 /// Stands for no region.
@@ -98,6 +126,8 @@ pub struct SurfaceSpan {
     pub first_index: u32,
     /// How many indices it has: three per triangle.
     pub index_count: u32,
+    /// What it is.
+    pub kind: SurfaceKind,
     /// Its topology.
     pub summary: SurfaceSummary,
 }
@@ -179,7 +209,7 @@ impl Structure {
     /// Floats of a whole frame.
     #[must_use]
     pub fn float_count(&self) -> usize {
-        self.samples_at() + 3 * self.sample_count() + 3 * self.points.len()
+        self.nets_at() + 3 * self.nets.iter().map(|net| net.count as usize).sum::<usize>()
     }
 
     /// Where the curve samples begin in a frame, in floats.
@@ -192,6 +222,12 @@ impl Structure {
     #[must_use]
     pub fn points_at(&self) -> usize {
         self.samples_at() + 3 * self.sample_count()
+    }
+
+    /// Where the vertices of control nets begin in a frame, in floats.
+    #[must_use]
+    pub fn nets_at(&self) -> usize {
+        self.points_at() + 3 * self.points.len()
     }
 
     /// Indices of all triangles.

@@ -5,9 +5,12 @@
 //! command line and file, one user and the next) depend on it and on nothing of each other.
 #![cfg_attr(not(test), warn(clippy::expect_used))]
 
+mod cage;
+mod displacement;
 mod document;
 mod edit;
 mod example;
+mod fill;
 mod frame;
 mod id;
 mod protocol;
@@ -16,15 +19,18 @@ mod surgery;
 mod text;
 mod validate;
 
+pub use cage::Cage;
+pub use displacement::{Displaced, Displacement};
 pub use document::{
     Curve, Density, Document, Embedding, MAX_COORDINATE, Objective, Region, Ribbon, Side, Skeleton,
     SkeletonVertex, Surface,
 };
 pub use edit::{Edit, GrabTarget, Handle, Leave, ObjectiveOf, SpacingOf, Through};
 pub use example::Example;
+pub use fill::{Fill, FillSide};
 pub use frame::{
-    CurveRole, CurveSpan, Figures, FrameHeader, NO_REGION, PointEntry, PointRole, RegionEntry, Structure,
-    SurfaceSpan, SurfaceSummary, VERTEX_FLOATS, vertex_layout,
+    CurveRole, CurveSpan, Figures, FrameHeader, NO_REGION, Net, PointEntry, PointRole, RegionEntry,
+    Structure, SurfaceKind, SurfaceSpan, SurfaceSummary, VERTEX_FLOATS, vertex_layout,
 };
 pub use id::{CurveId, PointId, SurfaceId};
 pub use protocol::{

@@ -4,7 +4,10 @@
 //! read back to the same bits, so a round trip is exact. Unknown fields, repeated keys and newer versions
 //! are refused with their place: silently dropping what one does not understand would lose work.
 
+use crate::cage::Cage;
+use crate::displacement::Displaced;
 use crate::document::{Curve, Density, Document, Objective, Surface};
+use crate::fill::Fill;
 use crate::id::{CurveId, PointId, SurfaceId};
 use crate::validate::Defect;
 use glam::DVec3;
@@ -63,6 +66,12 @@ struct Written<'a> {
     curves: &'a BTreeMap<CurveId, Curve>,
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     surfaces: &'a BTreeMap<SurfaceId, Surface>,
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    cages: &'a BTreeMap<SurfaceId, Cage>,
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    fills: &'a BTreeMap<SurfaceId, Fill>,
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    displacements: &'a BTreeMap<SurfaceId, Displaced>,
 }
 
 #[derive(Deserialize)]
@@ -84,6 +93,12 @@ struct Read {
     curves: BTreeMap<CurveId, Curve>,
     #[serde(default, deserialize_with = "unique")]
     surfaces: BTreeMap<SurfaceId, Surface>,
+    #[serde(default, deserialize_with = "unique")]
+    cages: BTreeMap<SurfaceId, Cage>,
+    #[serde(default, deserialize_with = "unique")]
+    fills: BTreeMap<SurfaceId, Fill>,
+    #[serde(default, deserialize_with = "unique")]
+    displacements: BTreeMap<SurfaceId, Displaced>,
 }
 
 /// The document as readable text: a line for each point, curve and surface part.
@@ -99,7 +114,8 @@ pub fn to_text(document: &Document) -> String {
 /// The document as the shortest text, for a link or a journal.
 #[must_use]
 pub fn to_compact_text(document: &Document) -> String {
-    let Document { name, objective, spacing, density, points, curves, surfaces } = document;
+    let Document { name, objective, spacing, density, points, curves, surfaces, cages, fills, displacements } =
+        document;
     let written = Written {
         ductile: FORMAT_VERSION,
         name,
@@ -109,6 +125,9 @@ pub fn to_compact_text(document: &Document) -> String {
         points,
         curves,
         surfaces,
+        cages,
+        fills,
+        displacements,
     };
     serde_json::to_string(&written).unwrap_or_default()
 }
@@ -131,7 +150,9 @@ pub fn from_text(text: &str) -> Result<Document, TextError> {
     }
     let read: Read = serde_json::from_str(text).map_err(|e| TextError::Form(e.to_string()))?;
     let Read { name, objective, spacing, density, points, curves, surfaces, .. } = read;
-    let document = Document { name, objective, spacing, density, points, curves, surfaces };
+    let Read { cages, fills, displacements, .. } = read;
+    let document =
+        Document { name, objective, spacing, density, points, curves, surfaces, cages, fills, displacements };
     document.validate()?;
     Ok(document)
 }

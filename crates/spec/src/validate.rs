@@ -7,6 +7,8 @@ use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
 use thiserror::Error;
 
+mod exact;
+
 /// Limits that keep hostile input from exhausting memory; each is far above what a designer makes.
 const MAX_POINTS: usize = 20_000;
 const MAX_CURVES: usize = 5_000;
@@ -111,6 +113,54 @@ pub enum Defect {
     /// A surface has no triangle.
     #[error("{0} has no triangles")]
     EmptySurface(SurfaceId),
+    /// Two surfaces of different kinds have one identity.
+    #[error("{0} is defined twice, as surfaces of two kinds")]
+    TwoKinds(SurfaceId),
+    /// A displacement has no surface.
+    #[error("{0} has displacements and does not exist")]
+    NothingToDisplace(SurfaceId),
+    /// A face of a cage names a point that does not exist, or names it twice.
+    #[error("{surface}, face {face}: {point} {why}")]
+    CageFace {
+        /// Which cage.
+        surface: SurfaceId,
+        /// Index of the face.
+        face: usize,
+        /// The point in question.
+        point: PointId,
+        /// What is wrong with it.
+        why: &'static str,
+    },
+    /// A face of a cage has too few corners.
+    #[error("{surface}, face {face} has {corners} corners; it needs at least 3")]
+    SmallFace {
+        /// Which cage.
+        surface: SurfaceId,
+        /// Index of the face.
+        face: usize,
+        /// How many corners it has.
+        corners: usize,
+    },
+    /// A fill has too few sides.
+    #[error("{surface} has {sides} sides; a fill needs at least 3")]
+    FewSides {
+        /// Which fill.
+        surface: SurfaceId,
+        /// How many sides it has.
+        sides: usize,
+    },
+    /// A side of a fill is no stretch of its curve.
+    #[error("{surface}, side {side}: {curve} {why}")]
+    FillSide {
+        /// Which fill.
+        surface: SurfaceId,
+        /// Index of the side.
+        side: usize,
+        /// The curve.
+        curve: CurveId,
+        /// What is wrong with it.
+        why: &'static str,
+    },
     /// A region of a surface is not where it is said to be.
     #[error("{surface}: the region beside {curve} from {point}: {why}")]
     Region {
@@ -194,7 +244,7 @@ impl Document {
         for (id, surface) in &self.surfaces {
             validate_surface(*id, surface, self)?;
         }
-        Ok(())
+        self.validate_exact()
     }
 }
 

@@ -49,6 +49,7 @@ impl Sketch {
             vertex_count: count(places.len()),
             first_index: count(self.indices.len()),
             index_count: count(3 * triangles.len()),
+            kind: ductile_spec::SurfaceKind::Fair,
             summary: SurfaceSummary { orientable, components: 1, boundaries: 1, euler: 1, genus: 0 },
         });
         self.indices.extend(triangles.iter().flatten().map(|corner| corner + first_vertex));

@@ -18,7 +18,7 @@ pub struct Scene {
     pub structure: Structure,
     /// Corners of the triangles, three each, counted from the first vertex of the frame.
     pub indices: Vec<u32>,
-    /// The numbers: vertices, curve samples, points (see `ductile_spec::frame`). Empty until the first
+    /// The numbers: vertices, curve samples, points, nets (see `ductile_spec::frame`). Empty until the first
     /// frame of a structure has come.
     pub floats: Vec<f32>,
     /// The small part of the frame.
@@ -40,7 +40,7 @@ pub(crate) struct Ball {
 /// model anew is the cure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SceneError {
-    /// The spans of surfaces or curves do not follow one another without gaps.
+    /// The spans of surfaces, curves or nets do not follow one another without gaps, or a net has an edge outside.
     #[error("the spans of the structure have gaps or overlap")]
     BrokenSpans,
     /// The number of indices is not what the structure says, or not a multiple of three.
@@ -148,7 +148,8 @@ impl Scene {
 
     /// The control points with their places, in order; none before the first frame.
     pub fn points(&self) -> impl Iterator<Item = (&PointEntry, Vec3)> + '_ {
-        self.structure.points.iter().zip(triples(self.part(self.structure.points_at(), usize::MAX)))
+        let places = self.part(self.structure.points_at(), self.structure.nets_at());
+        self.structure.points.iter().zip(triples(places))
     }
 
     /// The span of a curve.
@@ -167,6 +168,14 @@ impl Scene {
     pub(crate) fn span_samples(&self, span: &CurveSpan) -> &[f32] {
         let first = self.structure.samples_at() + 3 * span.first as usize;
         self.part(first, first + 3 * span.count as usize)
+    }
+
+    /// The place of a vertex of the net of a surface, counted from its first.
+    #[must_use]
+    pub fn net_vertex(&self, surface: SurfaceId, vertex: u32) -> Option<Vec3> {
+        let net = self.structure.nets.iter().find(|net| net.surface == surface)?;
+        let at = self.structure.nets_at() + 3 * (net.first as usize + vertex as usize);
+        (vertex < net.count && self.has_frame()).then(|| vector(&self.floats, at))
     }
 
     /// The place of a vertex.
@@ -303,6 +312,13 @@ fn check_spans(structure: &Structure) -> Result<(), SceneError> {
         }
         sample = sample.checked_add(curve.count).ok_or(SceneError::BrokenSpans)?;
     }
+    let mut vertex = 0_u32;
+    for net in &structure.nets {
+        if net.first != vertex || net.edges.iter().flatten().any(|end| *end >= net.count) {
+            return Err(SceneError::BrokenSpans);
+        }
+        vertex = vertex.checked_add(net.count).ok_or(SceneError::BrokenSpans)?;
+    }
     Ok(())
 }
 
@@ -414,6 +430,7 @@ mod tests {
             vertex_count: u32::MAX,
             first_index: 0,
             index_count: 0,
+            kind: ductile_spec::SurfaceKind::Fair,
             summary: ductile_spec::SurfaceSummary::default(),
         };
         let second = SurfaceSpan { first_vertex: u32::MAX, ..surface };

@@ -15,6 +15,8 @@ use std::f32::consts::TAU;
 /// Half the width of a curve, and of a boundary, in CSS pixels.
 const CURVE: f32 = 1.3;
 const BOUNDARY: f32 = 1.6;
+/// Half the width of an edge of a control net.
+const NET: f32 = 0.6;
 /// What hover adds to half a width or a radius.
 const THICKER: f32 = 0.9;
 /// Half the width of a line that shows what a tool would make.
@@ -63,6 +65,15 @@ impl Skeleton {
         for (curve, style) in self.curves.iter().zip(0..) {
             append_polyline(segments, samples_at + 3 * curve.first, curve.count, curve.closed, style);
         }
+        let nets_at = u32::try_from(scene.structure.nets_at()).unwrap_or(u32::MAX);
+        // All nets have one style, after those of the curves.
+        let style = length(&self.curves);
+        for net in &scene.structure.nets {
+            for [from, to] in &net.edges {
+                let [start, stop] = [from, to].map(|end| nets_at + 3 * (net.first + end));
+                segments.push(Segment { before: start, start, stop, after: stop, style });
+            }
+        }
     }
 
     /// Takes the places of the points.
@@ -75,6 +86,7 @@ impl Skeleton {
     pub(crate) fn mark(&mut self, marks: &mut Marks, camera: &Camera, highlight: &Highlight, theme: &Theme) {
         marks.clear();
         marks.curve_styles.extend(self.curves.iter().map(|curve| curve_style(curve, highlight, theme)));
+        marks.curve_styles.push(net_style(theme));
         self.order.clear();
         self.order.extend(self.places.iter().zip(0..).map(|(at, i)| (camera.depth(*at), i)));
         self.order.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
@@ -99,6 +111,18 @@ fn curve_style(curve: &CurveSpan, highlight: &Highlight, theme: &Theme) -> Style
         half_width: half_width + if is_hovered { THICKER } else { 0.0 },
         outline_width: if is_selected { SELECTED } else { 0.0 },
         hidden: if is_hovered || is_selected { 2.0 * HIDDEN_CURVE } else { HIDDEN_CURVE },
+        flags: 0,
+    }
+}
+
+/// The lines of control nets: thin, and behind what they control.
+fn net_style(theme: &Theme) -> Style {
+    Style {
+        fill: theme.net,
+        outline: theme.selected,
+        half_width: NET,
+        outline_width: 0.0,
+        hidden: HIDDEN_CURVE,
         flags: 0,
     }
 }

@@ -19,6 +19,9 @@ pub(crate) fn point(model: &mut Model, id: PointId) -> Result<(), ModelError> {
 /// Removes a curve that bounds no surface; surfaces that it runs through are freed from it.
 pub(crate) fn curve(model: &mut Model, id: CurveId) -> Result<(), ModelError> {
     let curve = model.document.curves.get(&id).ok_or(ModelError::NoCurve(id))?.clone();
+    if let Some(surface) = model.document.fills_on(id).next() {
+        return Err(ModelError::NeededByFill { surface, curve: id });
+    }
     let surfaces: Vec<SurfaceId> = model.document.surfaces_on(id).collect();
     for surface in &surfaces {
         let shape = model.surfaces.get(surface).ok_or(ModelError::NoSurface(*surface))?;
@@ -71,6 +74,16 @@ pub(crate) fn curve(model: &mut Model, id: CurveId) -> Result<(), ModelError> {
 
 /// Removes a surface; its curves stay.
 pub(crate) fn surface(model: &mut Model, id: SurfaceId) -> Result<(), ModelError> {
+    model.document_mut().displacements.remove(&id);
+    if let Some(cage) = model.document_mut().cages.remove(&id) {
+        model.patches.remove(&id);
+        drop_unused(model, cage.points());
+        return Ok(());
+    }
+    if model.document_mut().fills.remove(&id).is_some() {
+        model.patches.remove(&id);
+        return Ok(());
+    }
     let surface = model.document_mut().surfaces.remove(&id).ok_or(ModelError::NoSurface(id))?;
     model.surfaces.remove(&id);
     let points = surface.skeleton.vertices.into_iter().filter_map(|v| match v {
@@ -84,7 +97,9 @@ pub(crate) fn surface(model: &mut Model, id: SurfaceId) -> Result<(), ModelError
 /// Removes curves of a surface as it was that no surface follows any more, and the points that only they used.
 pub(crate) fn forget_lost_curves(model: &mut Model, before: &SurfaceShape) {
     for embedded in &before.embeddings {
-        if model.document.surfaces_on(embedded.curve).next().is_none() {
+        let is_needed = model.document.surfaces_on(embedded.curve).next().is_some()
+            || model.document.fills_on(embedded.curve).next().is_some();
+        if !is_needed {
             model.document_mut().curves.remove(&embedded.curve);
             model.curves.remove(&embedded.curve);
         }

@@ -143,4 +143,5 @@ pub(crate) fn forget_unused_points(model: &mut Model, before: &SurfaceShape) {
 pub(crate) fn is_unused(model: &Model, point: PointId) -> bool {
     model.document.curves_through(point).next().is_none()
         && model.document.surfaces_through(point).next().is_none()
+        && model.document.cages_on(point).next().is_none()
 }

@@ -5,13 +5,16 @@ use crate::model::Model;
 use crate::operation::{is_unused, refresh_skeleton, region, ribbon};
 use crate::shape::edit;
 use ductile_mesh::{SourceTag, VertexId};
-use ductile_spec::{CurveId, PointId, SurfaceId};
+use ductile_spec::{CurveId, FillSide, PointId, SurfaceId};
 
 /// Frees every curve and surface from a control point and removes it.
 pub(crate) fn release(model: &mut Model, point: PointId) -> Result<(), ModelError> {
     model.point(point)?;
     if is_unused(model, point) {
         return Err(ModelError::NothingToRelease(point));
+    }
+    if let Some(surface) = model.document.cages_on(point).next() {
+        return Err(ModelError::NeededByCage { surface, point });
     }
     let surfaces: Vec<_> = model.document.surfaces_through(point).collect();
     for id in &surfaces {
@@ -72,6 +75,11 @@ fn release_from_curve(model: &mut Model, id: CurveId, point: PointId) -> Result<
     }
     if curve.closed && curve.through.len() <= 3 {
         return refuse("a closed curve needs three points");
+    }
+    let ends_there = |side: &FillSide| side.curve == id && (side.from == point || side.to == point);
+    let filled = model.document.fills.iter().find(|(_, fill)| fill.sides.iter().any(ends_there));
+    if let Some((surface, _)) = filled {
+        return Err(ModelError::NeededByFill { surface: *surface, curve: id });
     }
     let place = curve.through.iter().position(|other| *other == point).unwrap_or(0);
     let before = curve.through[(place + curve.through.len() - 1) % curve.through.len()];

@@ -20,6 +20,7 @@ fn model() -> (Structure, Document) {
         vertex_count: 0,
         first_index: 0,
         index_count: 0,
+        kind: ductile_spec::SurfaceKind::Fair,
         summary: SurfaceSummary::default(),
     };
     let structure = Structure {

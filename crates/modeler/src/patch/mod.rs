@@ -1,0 +1,129 @@
+//! Exact surfaces: those that are computed from their controls at once and need no relaxation. They follow their controls
+//! in every frame, in the middle of a drag too, and never keep a model from resting.
+
+mod cage;
+#[cfg(test)]
+mod tests;
+
+use crate::error::ModelError;
+use crate::frame::summarise;
+use crate::model::Model;
+use crate::shape::edit;
+use ductile_mesh::Mesh;
+use ductile_spec::{SurfaceId, SurfaceKind, SurfaceSummary};
+use glam::DVec3;
+
+pub use cage::CageShape;
+
+/// The tessellation of an exact surface, as its controls were when it last followed them.
+#[derive(Clone, Debug)]
+pub enum PatchShape {
+    /// A surface over a cage.
+    Cage(CageShape),
+}
+
+/// A control net: places and the edges between them.
+pub(crate) type NetLines<'a> = (&'a [DVec3], &'a [[u32; 2]]);
+
+impl PatchShape {
+    /// What kind of surface it is.
+    #[must_use]
+    pub fn kind(&self) -> SurfaceKind {
+        match self {
+            Self::Cage(_) => SurfaceKind::Cage,
+        }
+    }
+
+    /// Where its vertices are.
+    #[must_use]
+    pub fn positions(&self) -> &[DVec3] {
+        match self {
+            Self::Cage(shape) => shape.positions(),
+        }
+    }
+
+    /// Unit normals at its vertices; zero where it has no tangent plane.
+    #[must_use]
+    pub fn normals(&self) -> &[DVec3] {
+        match self {
+            Self::Cage(shape) => shape.normals(),
+        }
+    }
+
+    /// Corners of its triangles.
+    #[must_use]
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        match self {
+            Self::Cage(shape) => shape.triangles(),
+        }
+    }
+
+    /// Its control net.
+    pub(crate) fn net(&self) -> NetLines<'_> {
+        match self {
+            Self::Cage(shape) => shape.net(),
+        }
+    }
+
+    /// Its topology.
+    pub(crate) fn summary(&self) -> SurfaceSummary {
+        Mesh::from_triangles(self.positions().len(), self.triangles())
+            .map_or_else(|_| SurfaceSummary::default(), |mesh| summarise(&mesh))
+    }
+
+    /// Names its connectivity.
+    #[must_use]
+    pub fn revision(&self) -> u64 {
+        match self {
+            Self::Cage(shape) => shape.revision,
+        }
+    }
+
+    /// Names its connectivity anew.
+    pub(crate) fn set_revision(&mut self, revision: u64) {
+        match self {
+            Self::Cage(shape) => shape.revision = revision,
+        }
+    }
+
+    /// Rough size in memory.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        48 * self.positions().len() + 12 * self.triangles().len()
+    }
+
+    /// Whether its controls have moved since it last followed them.
+    fn is_behind(&self, model: &Model) -> bool {
+        match self {
+            Self::Cage(shape) => shape.is_behind(&model.document),
+        }
+    }
+
+    /// Follows its controls, as far as it can.
+    fn follow(&mut self, model: &Model) {
+        match self {
+            Self::Cage(shape) => shape.follow(&model.document),
+        }
+    }
+}
+
+/// The shape of an exact surface of the document.
+///
+/// # Errors
+/// What is wrong with its controls.
+pub(crate) fn build(model: &Model, id: SurfaceId, revision: u64) -> Result<PatchShape, ModelError> {
+    let Some(cage) = model.document.cages.get(&id) else { return Err(ModelError::NoSurface(id)) };
+    CageShape::new(id, cage, &model.document, revision).map(PatchShape::Cage)
+}
+
+/// Brings every exact surface up to date with its controls. One that cannot follow stays as it was.
+pub(crate) fn follow(model: &mut Model) {
+    for id in model.patches.keys().copied().collect::<Vec<_>>() {
+        // Taken out while it looks at the model, so that nobody else holds it and it need not be copied.
+        let Some(mut shape) = model.patches.remove(&id) else { continue };
+        if shape.is_behind(model) {
+            edit(&mut shape).follow(model);
+        }
+        model.patches.insert(id, shape);
+    }
+}
