@@ -33,6 +33,10 @@ struct Frame {
     viewport: vec4f,
     // x: device pixels per CSS pixel; y: near plane; z: 1 with wireframe; w: unused.
     options: vec4f,
+    // x: what is asked of surfaces; isophotes, y: bands in half a turn; mean curvature, y: lower end, z: one over the range.
+    look: vec4f,
+    // Contours: xyz: unit vector across the slices; w: one over their distance.
+    slices: vec4f,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

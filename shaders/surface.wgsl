@@ -23,6 +23,8 @@ struct Facet {
     // Barycentric, the first two.
     @location(2) weights: vec2f,
     @location(3) @interpolate(flat) style: u32,
+    // Mean curvature, where that is asked for.
+    @location(4) mean: f32,
 }
 
 fn position(vertex: u32) -> vec3f {
@@ -50,6 +52,12 @@ fn surface_vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) su
     facet.normal = select(normal, -normal, dot(normal, flat_normal) < 0.0);
     facet.weights = vec2f(vec2u(corner) == vec2u(0u, 1u));
     facet.style = surface;
+    facet.mean = 0.0;
+    if question() == MEAN {
+        // Of the two sides the one of the stored normal, whichever triangle is drawn; a surface with one side has none.
+        let side = select(facet.normal, normal, styles[surface].sides.x > 0.5);
+        facet.mean = mean_curvature(own, side);
+    }
     return facet;
 }
 
@@ -89,6 +97,17 @@ fn surface_fragment(in: Facet, @builtin(front_facing) is_front: bool) -> @locati
     let back = select(style.sides.x * smoothstep(0.05, 0.2, facing), 0.0, is_front);
     let albedo = mix(frame.front.rgb, frame.back.rgb, back);
     var colour = encoded(softened(lit(albedo, n, to_eye)));
+    // Derivatives are taken where all fragments are.
+    let bands = isophotes(n);
+    let line_at = contour(in.at);
+    // A little light keeps the form.
+    let form = 0.72 + 0.28 * max(dot(n, frame.key.xyz), 0.0);
+    switch question() {
+        case ISOPHOTES: { colour = bands; }
+        case CONTOURS: { colour = mix(colour, frame.wire.rgb, 0.85 * line_at); }
+        case MEAN: { colour = ramp((in.mean - frame.look.y) * frame.look.z) * form; }
+        default: {}
+    }
     colour = mix(colour, style.tint.rgb, style.tint.a);
 
     let weights = vec3f(in.weights, 1.0 - in.weights.x - in.weights.y);

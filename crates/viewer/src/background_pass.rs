@@ -1,6 +1,6 @@
 //! Draws the gradient behind everything and the grid of the work plane.
 
-use crate::pipeline::{Meets, Recipe, Workshop};
+use crate::pipeline::{Meets, Pulls, Recipe, Workshop};
 use wgpu::{RenderPass, RenderPipeline};
 
 /// The gradient.
@@ -24,7 +24,7 @@ impl BackgroundPass {
             fragment: "background_fragment",
             meets: Meets::Background,
             is_quad: false,
-            pulls: false,
+            pulls: Pulls::Nothing,
         };
         let grid = Recipe {
             label: "grid",
@@ -32,7 +32,7 @@ impl BackgroundPass {
             fragment: "grid_fragment",
             meets: Meets::Visible,
             is_quad: true,
-            pulls: false,
+            pulls: Pulls::Nothing,
         };
         Self {
             gradient: workshop.pipeline(&workshop.shader("background", BACKGROUND_SHADER), &gradient),

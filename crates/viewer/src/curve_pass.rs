@@ -1,6 +1,6 @@
 //! Draws curves: dimmed where something hides them, in full elsewhere.
 
-use crate::pipeline::{Meets, Recipe, Workshop};
+use crate::pipeline::{Meets, Pulls, Recipe, Workshop};
 use crate::uniforms::Segment;
 use std::ops::Range;
 use wgpu::{BindGroup, RenderPass, RenderPipeline};
@@ -24,7 +24,7 @@ impl CurvePass {
             fragment: "curve_fragment",
             meets: Meets::Visible,
             is_quad: true,
-            pulls: true,
+            pulls: Pulls::ThreeBuffers,
         };
         let hidden = Recipe {
             label: "hidden curves",

@@ -11,6 +11,72 @@ pub enum Shading {
     /// Phong, with a key light that follows the camera a little.
     #[default]
     Shaded,
+    /// Bands of equal angle between normal and key light: a kink in a band is a kink in the normals, a corner in it one
+    /// in the curvatures.
+    Isophotes,
+    /// Lines of equal height over shaded matter.
+    Contours,
+    /// Mean curvature in colours.
+    Mean,
+}
+
+impl Shading {
+    /// All of them, in the order of the menu.
+    pub const ALL: [Self; 4] = [Self::Shaded, Self::Isophotes, Self::Contours, Self::Mean];
+
+    /// Its word in the page: `look-isophotes` is its menu item.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Shaded => "shaded",
+            Self::Isophotes => "isophotes",
+            Self::Contours => "contours",
+            Self::Mean => "mean",
+        }
+    }
+
+    /// The one that a digit chooses together with Alt.
+    #[must_use]
+    pub fn of_digit(digit: char) -> Option<Self> {
+        // The digits between are those of looks to come.
+        match digit {
+            '1' => Some(Self::Shaded),
+            '4' => Some(Self::Isophotes),
+            '6' => Some(Self::Contours),
+            '7' => Some(Self::Mean),
+            _ => None,
+        }
+    }
+}
+
+/// Across which direction contours are drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Slices {
+    /// Along x.
+    X,
+    /// Along y.
+    Y,
+    /// Along z: lines of equal height.
+    #[default]
+    Z,
+    /// Along the line of sight.
+    View,
+}
+
+impl Slices {
+    /// All of them, in the order of a menu.
+    pub const ALL: [Self; 4] = [Self::X, Self::Y, Self::Z, Self::View];
+
+    /// Its name on the page.
+    #[must_use]
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::X => "X",
+            Self::Y => "Y",
+            Self::Z => "Z",
+            Self::View => "Line of sight",
+        }
+    }
 }
 
 /// What is drawn, and how.
@@ -18,6 +84,14 @@ pub enum Shading {
 pub struct Look {
     /// How surfaces are coloured.
     pub shading: Shading,
+    /// Isophotes: how many bands there are in half a turn, dark and light ones.
+    pub bands: f32,
+    /// Contours: across which direction.
+    pub slices: Slices,
+    /// Contours: distance from one to the next, in model units, above zero.
+    pub distance: f32,
+    /// Mean curvature: which values have the first and the last colour, in one over model units.
+    pub range: [f32; 2],
     /// Whether the edges of the mesh are drawn.
     pub wireframe: bool,
     /// Whether control curves and control points are drawn.
@@ -38,6 +112,10 @@ impl Default for Look {
     fn default() -> Self {
         Self {
             shading: Shading::Shaded,
+            bands: 32.0,
+            slices: Slices::Z,
+            distance: 0.1,
+            range: [-1.0, 1.0],
             wireframe: false,
             skeleton: true,
             surface: true,

@@ -30,8 +30,8 @@ pub(crate) struct Workshop<'a> {
 pub(crate) struct Layouts {
     /// Group 0: the frame.
     pub(crate) frame: BindGroupLayout,
-    /// Group 1: numbers, elements, styles.
-    pub(crate) pulled: BindGroupLayout,
+    /// Group 1: numbers, elements, styles; and for surfaces also the triangles around each vertex.
+    pub(crate) pulled: [BindGroupLayout; 2],
 }
 
 impl Layouts {
@@ -48,23 +48,37 @@ impl Layouts {
         let storage = |binding| entry(binding, BufferBindingType::Storage { read_only: true });
         Self {
             frame: group("frame", &[entry(0, BufferBindingType::Uniform)]),
-            pulled: group("pulled", &[storage(0), storage(1), storage(2)]),
+            pulled: [
+                group("pulled", &[storage(0), storage(1), storage(2)]),
+                group("pulled with rings", &[storage(0), storage(1), storage(2), storage(3)]),
+            ],
         }
     }
 
-    /// Binds numbers, elements and styles.
-    pub(crate) fn pull(&self, device: &Device, label: &str, parts: [&GrowingBuffer; 3]) -> BindGroup {
-        let [numbers, elements, styles] = parts;
-        device.create_bind_group(&BindGroupDescriptor {
-            label: Some(label),
-            layout: &self.pulled,
-            entries: &[
-                BindGroupEntry { binding: 0, resource: numbers.buffer().as_entire_binding() },
-                BindGroupEntry { binding: 1, resource: elements.buffer().as_entire_binding() },
-                BindGroupEntry { binding: 2, resource: styles.buffer().as_entire_binding() },
-            ],
-        })
+    /// Binds numbers, elements and styles, and rings where there are four.
+    pub(crate) fn pull<const N: usize>(
+        &self,
+        device: &Device,
+        label: &str,
+        parts: [&GrowingBuffer; N],
+    ) -> BindGroup {
+        let resources = parts.map(|part| part.buffer().as_entire_binding());
+        let entries: Vec<BindGroupEntry<'_>> =
+            (0..).zip(resources).map(|(binding, resource)| BindGroupEntry { binding, resource }).collect();
+        let layout = &self.pulled[usize::from(N > 3)];
+        device.create_bind_group(&BindGroupDescriptor { label: Some(label), layout, entries: &entries })
     }
+}
+
+/// What a pass pulls.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Pulls {
+    /// Nothing.
+    Nothing,
+    /// Numbers, elements and styles.
+    ThreeBuffers,
+    /// These, and the triangles around each vertex.
+    FourBuffers,
 }
 
 /// How a pass meets what is drawn already.
@@ -88,8 +102,7 @@ pub(crate) struct Recipe<'a> {
     pub(crate) fragment: &'a str,
     pub(crate) meets: Meets,
     pub(crate) is_quad: bool,
-    /// Whether it pulls numbers, elements and styles.
-    pub(crate) pulls: bool,
+    pub(crate) pulls: Pulls,
 }
 
 impl Workshop<'_> {
@@ -101,10 +114,11 @@ impl Workshop<'_> {
     }
 
     fn layout(&self, recipe: &Recipe<'_>) -> PipelineLayout {
-        let both = [Some(&self.layouts.frame), Some(&self.layouts.pulled)];
+        let pulled = &self.layouts.pulled[usize::from(recipe.pulls == Pulls::FourBuffers)];
+        let both = [Some(&self.layouts.frame), Some(pulled)];
         self.device.create_pipeline_layout(&PipelineLayoutDescriptor {
             label: Some(recipe.label),
-            bind_group_layouts: if recipe.pulls { &both } else { &both[..1] },
+            bind_group_layouts: if recipe.pulls == Pulls::Nothing { &both[..1] } else { &both },
             immediate_size: 0,
         })
     }

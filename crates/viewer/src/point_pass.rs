@@ -1,6 +1,6 @@
 //! Draws points: dimmed where something hides them, in full elsewhere.
 
-use crate::pipeline::{Meets, Recipe, Workshop};
+use crate::pipeline::{Meets, Pulls, Recipe, Workshop};
 use std::ops::Range;
 use wgpu::{BindGroup, RenderPass, RenderPipeline};
 
@@ -23,7 +23,7 @@ impl PointPass {
             fragment: "point_fragment",
             meets: Meets::Visible,
             is_quad: true,
-            pulls: true,
+            pulls: Pulls::ThreeBuffers,
         };
         let hidden = Recipe {
             label: "hidden points",

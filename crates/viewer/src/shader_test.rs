@@ -81,7 +81,9 @@ fn structures_are_mirrored() {
             plane_v,
             plane_centre,
             viewport,
-            options
+            options,
+            look,
+            slices
         }
     );
     assert_mirrors!(CURVE_SHADER, Style { fill, outline, half_width, outline_width, hidden, flags });

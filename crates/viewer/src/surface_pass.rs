@@ -1,9 +1,10 @@
 //! Draws the surfaces, region by region.
 
 use crate::buffer::GrowingBuffer;
+use crate::curvature::Rings;
 use crate::layer::length;
 use crate::look::{Highlight, Tinted};
-use crate::pipeline::{Layouts, Meets, Recipe, Workshop};
+use crate::pipeline::{Layouts, Meets, Pulls, Recipe, Workshop};
 use crate::scene::Scene;
 use crate::theme::Theme;
 use crate::uniforms::SurfaceStyle;
@@ -11,8 +12,11 @@ use ductile_spec::{NO_REGION, SurfaceId};
 use wgpu::{BindGroup, Device, Queue, RenderPass, RenderPipeline};
 
 /// The surfaces.
-pub(crate) const SURFACE_SHADER: &str =
-    concat!(include_str!("../../../shaders/frame.wgsl"), include_str!("../../../shaders/surface.wgsl"));
+pub(crate) const SURFACE_SHADER: &str = concat!(
+    include_str!("../../../shaders/frame.wgsl"),
+    include_str!("../../../shaders/surface.wgsl"),
+    include_str!("../../../shaders/interrogate.wgsl")
+);
 
 /// Strength of the tint of a surface that a tool is about to touch.
 const TINT: f32 = 0.30;
@@ -32,6 +36,7 @@ pub(crate) struct SurfacePass {
     pipeline: RenderPipeline,
     indices: GrowingBuffer,
     styles: GrowingBuffer,
+    rings: GrowingBuffer,
     group: Option<BindGroup>,
     parts: Vec<Part>,
     /// Triangles in the order of the parts; kept for its memory.
@@ -47,12 +52,13 @@ impl SurfacePass {
             fragment: "surface_fragment",
             meets: Meets::Solid,
             is_quad: false,
-            pulls: true,
+            pulls: Pulls::FourBuffers,
         };
         Self {
             pipeline: workshop.pipeline(&workshop.shader("surface", SURFACE_SHADER), &recipe),
             indices: GrowingBuffer::new(workshop.device, "triangles"),
             styles: GrowingBuffer::new(workshop.device, "surface styles"),
+            rings: GrowingBuffer::new(workshop.device, "rings"),
             group: None,
             parts: Vec::new(),
             sorted: Vec::new(),
@@ -62,7 +68,12 @@ impl SurfacePass {
 
     pub(crate) fn upload_structure(&mut self, device: &Device, queue: &Queue, scene: &Scene) {
         divide(scene, &mut self.parts, &mut self.sorted);
-        if self.indices.write(device, queue, &self.sorted) {
+        let rings = Rings::new(scene.structure.vertex_count(), &self.sorted);
+        let moved = [
+            self.indices.write(device, queue, &self.sorted),
+            self.rings.write(device, queue, rings.as_slice()),
+        ];
+        if moved.contains(&true) {
             self.group = None;
         }
     }
@@ -95,7 +106,8 @@ impl SurfacePass {
             self.group = None;
         }
         if self.group.is_none() {
-            self.group = Some(layouts.pull(device, "surfaces", [floats, &self.indices, &self.styles]));
+            let parts = [floats, &self.indices, &self.styles, &self.rings];
+            self.group = Some(layouts.pull(device, "surfaces", parts));
         }
     }
 

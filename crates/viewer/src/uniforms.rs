@@ -1,7 +1,7 @@
 //! What every pass knows: the mirror of `shaders/frame.wgsl`, filled from camera, look and theme.
 
 use crate::camera::{Camera, tangent};
-use crate::look::{Look, WorkPlane};
+use crate::look::{Look, Shading, Slices, WorkPlane};
 use crate::theme::Theme;
 use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec2, Vec3, Vec4};
@@ -34,6 +34,8 @@ pub(crate) struct Frame {
     pub(crate) plane_centre: Vec4,
     pub(crate) viewport: Vec4,
     pub(crate) options: Vec4,
+    pub(crate) look: Vec4,
+    pub(crate) slices: Vec4,
 }
 
 /// `Style` of `frame.wgsl`: how a mark is drawn.
@@ -104,6 +106,8 @@ impl Frame {
             axis_v: faint(theme.axes[main_axis(plane.v)]),
             viewport: Vec4::new(canvas.x, canvas.y, 1.0 / canvas.x, 1.0 / canvas.y),
             options: Vec4::new(look.device_pixel_ratio, camera.near(), wireframe, 0.0),
+            look: question(look),
+            slices: slices(look, camera),
             ..Self::default()
         };
         frame.lay_grid(camera, plane);
@@ -121,6 +125,32 @@ impl Frame {
         self.plane_v = plane.v.extend(camera.pose().distance * 6.0);
         self.plane_centre = Vec4::new(centre.dot(plane.u), centre.dot(plane.v), 0.0, 0.0);
     }
+}
+
+/// What is asked of surfaces, with its numbers.
+fn question(look: &Look) -> Vec4 {
+    match look.shading {
+        Shading::Shaded => Vec4::ZERO,
+        Shading::Isophotes => Vec4::new(1.0, look.bands, 0.0, 0.0),
+        Shading::Contours => Vec4::new(2.0, 0.0, 0.0, 0.0),
+        Shading::Mean => {
+            let [low, high] = look.range;
+            // A range without width still has two sides.
+            let width = (high - low).max(1e-6 * (low.abs() + high.abs())).max(f32::MIN_POSITIVE);
+            Vec4::new(3.0, low, 1.0 / width, 0.0)
+        }
+    }
+}
+
+/// The slices whose borders are the contours.
+fn slices(look: &Look, camera: &Camera) -> Vec4 {
+    let across = match look.slices {
+        Slices::X => Vec3::X,
+        Slices::Y => Vec3::Y,
+        Slices::Z => Vec3::Z,
+        Slices::View => camera.forward(),
+    };
+    across.extend(1.0 / look.distance.max(f32::MIN_POSITIVE))
 }
 
 /// Directions toward the key light and the fill light. Half of the key light stays where it is in the

@@ -2,8 +2,8 @@
 
 use super::page::{Page, act};
 use super::{dom, files};
-use crate::View;
 use crate::tool::{Selection, Toggle, ToolKey, ToolKind};
+use crate::{Shading, View};
 use ductile_spec::{Edit, Example, PointId, Request};
 use wasm_bindgen::JsCast;
 use web_sys::{Element, Event, HtmlDialogElement, HtmlElement, KeyboardEvent, MouseEvent};
@@ -119,7 +119,10 @@ impl Page {
                 self.turn(toggle);
             }
         } else if let Some(name) = command.strip_prefix("look-") {
-            self.toggle_look(name);
+            match Shading::ALL.into_iter().find(|shading| shading.word() == name) {
+                Some(shading) => self.choose_shading(shading),
+                None => self.toggle_look(name),
+            }
         } else if let Some(theme) = command.strip_prefix("theme-") {
             self.choose_theme(theme);
         } else if let Some(name) = command.strip_prefix("view-") {
@@ -172,6 +175,7 @@ impl Page {
     fn page_command(&mut self, command: &str, subject: Option<&str>) {
         match command {
             "fit" => self.fit_all(),
+            "fit-legend" => self.fit_legend(),
             "focus" => self.focus_selected(),
             "projection" => self.camera.toggle_projection(),
             "store-view" => {

@@ -3,7 +3,7 @@
 use super::density;
 use super::dom;
 use super::page::{Page, act};
-use super::{extent, normal, options, ribbon, tangent};
+use super::{extent, legend, normal, options, ribbon, tangent};
 use crate::number;
 use crate::tool::Selection;
 use ductile_spec::{Edit, PointId, Request};
@@ -26,6 +26,9 @@ pub(crate) fn listen() {
     }
     for (index, id) in normal::FIELDS.into_iter().enumerate() {
         on_field(id, move |page, text| page.typed_normal(index, text));
+    }
+    for id in legend::FIELDS {
+        on_field(id, move |page, text| page.typed_legend(id, text));
     }
     on_field(ribbon::FIELD, Page::typed_ribbon);
     on_field(extent::FIELD, Page::typed_loop_radius);
@@ -106,6 +109,7 @@ impl Page {
             (field, Selection::Point(_)) if normal::FIELDS.contains(&field) => {
                 self.normal_text(normal::FIELDS.iter().position(|name| *name == field).unwrap_or(0))
             }
+            (field, _) if legend::FIELDS.contains(&field) => self.legend_text(field),
             (options::FIELD, _) => self.tube_radius_text(),
             (extent::FIELD, Selection::Curve(_)) => self.loop_radius_text(),
             (ribbon::FIELD, Selection::Curve(_)) => self.ribbon_text(),

@@ -66,6 +66,7 @@ impl Page {
         put(&out, "openings", self.openings);
         put(&out, "banners", self.notices.texts().map(JsValue::from_str).collect::<Array>());
         put(&out, "toast", optional(self.notices.toast_said().as_deref()));
+        put(&out, "shading", self.settings.look.shading.word());
         put(&out, "gpu", self.stage.device.word());
         put(&out, "losses", self.stage.losses);
         put(&out, "pictures", self.stage.pictures);

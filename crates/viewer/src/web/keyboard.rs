@@ -2,6 +2,7 @@
 
 use super::page::{Page, act};
 use super::{commands, dom, files};
+use crate::Shading;
 use crate::tool::{Arrow, Axis, Selection, Surroundings, Toggle, ToolKey, ToolKind, nudge_direction};
 use ductile_spec::{Edit, Request};
 use wasm_bindgen::JsCast;
@@ -77,7 +78,7 @@ fn is_understood(key: &Key) -> bool {
         return chord || digit(&key.code).is_some_and(|digit| matches!(digit, '1' | '3' | '7'));
     }
     if key.alt {
-        return false;
+        return digit(&key.code).and_then(Shading::of_digit).is_some();
     }
     match name.as_str() {
         // Tab walks only where there is something to walk through and the canvas has the focus.
@@ -108,6 +109,10 @@ impl Page {
     fn pressed(&mut self, key: &Key) {
         let name = key.name.to_lowercase();
         if key.ctrl && self.chord(&name, key.shift) {
+            return;
+        }
+        if let Some(shading) = digit(&key.code).filter(|_| key.alt).and_then(Shading::of_digit) {
+            self.choose_shading(shading);
             return;
         }
         if let Some(digit) = digit(&key.code) {

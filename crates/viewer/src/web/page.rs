@@ -3,6 +3,7 @@
 use super::dom;
 use super::gestures::Hand;
 use super::journal::Journal;
+use super::legend::{self, Legend};
 use super::notice::Notices;
 use super::panel::Panel;
 use super::port::Port;
@@ -54,6 +55,7 @@ pub(crate) struct Page {
     pub(crate) journal: Journal,
     pub(crate) notices: Notices,
     pub(crate) panel: Panel,
+    pub(crate) legend: Legend,
     /// The document after the last act.
     pub(crate) committed: Option<Committed>,
     /// The same, read; what the link and the file are made of.
@@ -118,6 +120,7 @@ pub(crate) fn start() {
         journal: Journal::open(),
         notices: Notices::default(),
         panel: Panel::new(),
+        legend: Legend::default(),
         committed: None,
         memory: Memory::default(),
         document: Document::default(),
@@ -137,6 +140,7 @@ pub(crate) fn start() {
     fields::listen();
     objectives::listen();
     density::listen();
+    legend::listen();
     files::listen();
     link::listen();
     stage::listen();

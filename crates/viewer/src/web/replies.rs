@@ -117,6 +117,9 @@ impl Page {
                 self.stage.frame_is_new = true;
                 self.hand.hover_is_stale = true;
                 self.tools.refresh(&self.scene);
+                if self.scene.header.settled {
+                    self.refit_legend();
+                }
                 if let Some((centre, radius)) = self.scene.bounds() {
                     self.camera.set_extent(centre, radius);
                 }
@@ -191,6 +194,7 @@ impl Page {
                 self.tools.choose(ToolKind::Shape);
                 // Lengths of one model mean nothing in another.
                 self.tools.options_mut().radius = None;
+                self.fit_legend();
                 if !std::mem::take(&mut self.falling_back) {
                     self.notices.dismiss("opening");
                 }

@@ -2,7 +2,7 @@
 
 use super::dom;
 use super::page::Page;
-use crate::Look;
+use crate::{Look, Shading};
 use web_sys::Storage;
 
 const KEY: &str = "ductile.look";
@@ -51,6 +51,9 @@ impl Settings {
     fn take(&mut self, word: &str) {
         if let Some(theme) = word.strip_prefix("theme-").and_then(Theme::of) {
             self.theme = theme;
+        } else if let Some(word) = word.strip_prefix("shading-") {
+            let kept = Shading::ALL.into_iter().find(|shading| shading.word() == word);
+            self.look.shading = kept.unwrap_or_default();
         } else if let Some(name) = word.strip_prefix("no-") {
             self.set(name, false);
         } else {
@@ -78,7 +81,8 @@ impl Settings {
     }
 
     fn keep(&mut self) {
-        let mut words = vec![format!("theme-{}", self.theme.word())];
+        let shading = self.look.shading.word();
+        let mut words = vec![format!("theme-{}", self.theme.word()), format!("shading-{shading}")];
         for name in SWITCHES {
             let shown = self.switch(name).is_some_and(|shown| *shown);
             words.push(if shown { name.to_owned() } else { format!("no-{name}") });
@@ -110,6 +114,11 @@ impl Page {
         }
     }
 
+    /// Keeps what was chosen for the next visit.
+    pub(crate) fn keep_settings(&mut self) {
+        self.settings.keep();
+    }
+
     /// Makes page and picture look as wanted.
     pub(crate) fn apply_settings(&mut self) {
         let theme = self.settings.theme;
@@ -122,6 +131,10 @@ impl Page {
             let shown = self.settings.switch(name).is_some_and(|shown| *shown);
             check(&format!("look-{name}"), shown);
         }
+        for other in Shading::ALL {
+            check(&format!("look-{}", other.word()), other == self.settings.look.shading);
+        }
+        self.show_legend();
         for other in [Theme::System, Theme::Light, Theme::Dark] {
             check(&format!("theme-{}", other.word()), other == theme);
         }
