@@ -62,6 +62,11 @@ test("mean curvature: a ball has one colour, that of its value in the legend, an
     await page.locator("#reverse").click();
     await atRest(page, ({ act }) => act === "Reverse");
     await type(page, "legend-low", "-1");
+    // What is selected or pointed at is tinted.
+    await page.locator("#view").focus();
+    await page.keyboard.press("Escape");
+    await page.mouse.move(80, 300);
+    await untilInspect(page, ({ hover }) => hover === null);
     await drawn(page);
     const orange = patch(await pixels(page), middle);
     assert.ok(orange[0] > 1.8 * orange[2], `orange, not ${orange}`);
@@ -129,9 +134,10 @@ test("contours lie at even heights, along the axis and at the distance of the le
     await page.keyboard.press("1");
     await untilInspect(page, ({ camera }) => !camera.flying && camera.forward[1] > 0.99);
     await page.keyboard.press("Alt+6");
-    await until(page, () => document.getElementById("slice-distance").value === "0.1");
+    await until(page, () => document.getElementById("slice-distance").value === "0.07");
     const { camera } = await untilInspect(page, ({ shading }) => shading === "contours");
     const lines = async () => crossings(await pixels(page), middle[0] + 5);
+    await type(page, "slice-distance", "0.1");
     await drawn(page);
     const tenths = await lines();
     assert.ok(tenths >= 16 && tenths <= 21, `a ball of radius 1 has 19 or so lines a tenth apart, not ${tenths}`);

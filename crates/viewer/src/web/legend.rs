@@ -17,7 +17,7 @@ const STEPS: f32 = 1000.0;
 const INSET: f32 = 0.2;
 /// Colours of the ramp, and contours across the model after fitting.
 const COLOURS: u8 = 5;
-const CONTOURS: f32 = 20.0;
+const CONTOURS: f32 = 30.0;
 
 /// How the legend stands.
 #[derive(Debug)]
