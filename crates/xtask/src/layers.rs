@@ -37,7 +37,7 @@ const HOMES: &[(&str, &[&str])] = &[
     ("miniz_oxide", &["ductile-spec"]),
     ("base64", &["ductile-spec"]),
     ("faer", &["ductile-solver"]),
-    ("wide", &["ductile-solver"]),
+    ("wide", &["ductile-solver", "ductile-patch"]),
     ("robust", &["ductile-mesh"]),
     ("clap", &["ductile-cli"]),
     ("wasm-bindgen", &["ductile-worker", "ductile-viewer"]),

@@ -8,6 +8,7 @@ use super::error::CageError;
 use super::surface::CageSurface;
 use crate::jet::Jet;
 use std::collections::BTreeMap;
+use wide::f64x2;
 
 /// Samples that are evaluated side by side.
 pub(super) const LANES: usize = 2;
@@ -19,13 +20,13 @@ const MOST_NUMBERS: usize = 1 << 24;
 pub(super) struct Pattern {
     slots: usize,
     /// For each pair of samples and each slot the weights of both, those of their derivatives by `u`, and by `v`.
-    weights: Vec<[f64; 3 * LANES]>,
+    weights: Vec<[f64x2; 3]>,
 }
 
 impl Pattern {
     /// The weights of a pair of samples, slot by slot.
     #[inline]
-    pub(super) fn weights(&self, pair: usize) -> &[[f64; 3 * LANES]] {
+    pub(super) fn weights(&self, pair: usize) -> &[[f64x2; 3]] {
         &self.weights[pair * self.slots..(pair + 1) * self.slots]
     }
 }
@@ -138,7 +139,8 @@ impl Tables {
                 }
             }
         }
-        Ok(Pattern { slots, weights })
+        let weights = weights.into_iter().map(|[a, b, c, d, e, f]| [[a, b], [c, d], [e, f]].map(f64x2::new));
+        Ok(Pattern { slots, weights: weights.collect() })
     }
 
     /// Sees to it that the weights of a valence are there.

@@ -14,6 +14,7 @@ use super::links::name;
 use super::pattern::{LANES, Pattern, Tables};
 use super::surface::CageSurface;
 use glam::DVec3;
+use wide::f64x2;
 
 /// Most samples of a tessellation.
 const MOST_SAMPLES: usize = 1 << 26;
@@ -165,6 +166,7 @@ impl Tessellation {
             let normals = self.normals[from..from + count].chunks_mut(LANES);
             for ((pair, positions), normals) in (run.pair as usize..).zip(positions).zip(normals) {
                 let sums = combine(pattern.weights(pair), slots, vertices);
+                let sums = sums.map(f64x2::to_array);
                 for (lane, (position, normal)) in positions.iter_mut().zip(normals).enumerate() {
                     let at =
                         |row: usize| DVec3::new(sums[row][lane], sums[row + 1][lane], sums[row + 2][lane]);
@@ -179,14 +181,12 @@ impl Tessellation {
 
 /// The coordinates of two samples and of their derivatives: x, y, z, then those by `u`, then by `v`.
 #[inline]
-fn combine(weights: &[[f64; 3 * LANES]], slots: &[u32], vertices: &[DVec3]) -> [[f64; LANES]; 9] {
-    let mut sums = [[0.0; LANES]; 9];
+fn combine(weights: &[[f64x2; 3]], slots: &[u32], vertices: &[DVec3]) -> [f64x2; 9] {
+    let mut sums = [f64x2::ZERO; 9];
     for (weights, &slot) in weights.iter().zip(slots) {
-        let point = vertices[slot as usize].to_array();
+        let point = vertices[slot as usize].to_array().map(f64x2::splat);
         for row in 0..9 {
-            for lane in 0..LANES {
-                sums[row][lane] += weights[row / 3 * LANES + lane] * point[row % 3];
-            }
+            sums[row] += weights[row / 3] * point[row % 3];
         }
     }
     sums
