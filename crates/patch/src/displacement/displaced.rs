@@ -159,7 +159,7 @@ impl Displacements {
         index: usize,
         displacements: &[DVec3],
     ) -> Result<(), DisplacementError> {
-        let vertices = self.get(index)?.item.vertices.len();
+        let vertices = self.get(index)?.item.room();
         item::check_displacements(displacements, vertices)?;
         item::check_finite(index, displacements)?;
         let stiffness = &self.operators[self.reaches[index].operator].1.stiffness;
@@ -219,13 +219,40 @@ impl Displacements {
             let free = || reach.blend.iter().zip(held).filter(|(_, held)| !**held).map(|(blend, _)| *blend);
             let near = reach.blend.iter().zip(&beside).filter(|(_, near)| **near).map(|(blend, _)| *blend);
             ItemReport {
-                offset: reach.item.vertices.first().map_or(DVec3::ZERO, |&vertex| offsets[vertex]),
+                offset: self.offset_at_foot(reach, offsets),
                 least: free().fold(1.0, f64::min),
                 largest: free().fold(0.0, f64::max),
                 beside_held: near.fold(0.0, f64::max),
             }
         };
         self.reaches.iter().map(report).collect()
+    }
+
+    /// By how much the foot of an item moves, or the first vertex of a curve, given the offsets of the vertices.
+    ///
+    /// # Errors
+    /// [`DisplacementError::NoItem`].
+    pub fn foot_offset(&self, index: usize, offsets: &[DVec3]) -> Result<DVec3, DisplacementError> {
+        self.get(index).map(|reach| self.offset_at_foot(reach, offsets))
+    }
+
+    fn offset_at_foot(&self, reach: &Reach, offsets: &[DVec3]) -> DVec3 {
+        match reach.item.met().first() {
+            Some(&vertex) => offsets[vertex],
+            None if self.settings.combination == Combination::Plain => {
+                let others = self.reaches.iter().filter(|other| !core::ptr::eq(*other, reach));
+                let drags = others.map(|other| {
+                    // A field that varies is smooth: linear will do.
+                    let d = match &other.field {
+                        None => other.item.displacements[0],
+                        Some(field) => reach.item.load().map(|(v, share)| field[v] * share).sum(),
+                    };
+                    d * other.blend_at(&reach.item, &self.function)
+                });
+                reach.item.displacements[0] + drags.sum::<DVec3>()
+            }
+            None => reach.item.displacements[0],
+        }
     }
 
     /// The items.
@@ -282,12 +309,9 @@ impl Displacements {
         item.check(index, &self.domain)?;
         let operator = self.operator(item.direction)?;
         let green = &mut self.operators[operator].1;
-        let part = green.part(item.vertices[0])?;
-        let harmonic = if item.is_curve() {
-            green.capacity(&item.vertices)?
-        } else {
-            green.function(item.vertices[0])?
-        };
+        let (part, _) = green.part_of(&item)?;
+        let harmonic =
+            if item.is_curve() { green.capacity(&item.vertices)? } else { green.function(&item)? };
         let mut reach = Reach::new(item, operator, part, harmonic);
         reach.profile(self.settings.profile);
         reach.refresh_blend(&self.function);
@@ -333,10 +357,20 @@ impl Displacements {
             if combination != Combination::Pairwise && reach.item.is_curve() {
                 return Err(DisplacementError::CurveNotCombined(index));
             }
+            if combination != Combination::Pairwise && reach.item.shares.is_some() {
+                return Err(DisplacementError::SpotNotCombined(index));
+            }
+            let is_same = |other: &Reach| {
+                let item = &other.item;
+                item.shares.is_some() && (&item.vertices, item.shares) == (&reach.item.vertices, reach.item.shares)
+            };
+            if let Some(other) = reaches[..index].iter().position(is_same) {
+                return Err(DisplacementError::Touching(other, index, reach.item.vertices[0]));
+            }
             if combination == Combination::Cardinal && reach.operator != reaches[0].operator {
                 return Err(DisplacementError::MixedDirections(index));
             }
-            for &vertex in &reach.item.vertices {
+            for &vertex in reach.item.met() {
                 if let Some(other) = owner[vertex].replace(index) {
                     return Err(DisplacementError::Touching(other, index, vertex));
                 }

@@ -63,6 +63,9 @@ pub enum DisplacementError {
     /// A curve names a vertex twice, other than to close.
     #[error("the curve goes through vertex {0} twice")]
     CurveCrosses(usize),
+    /// Barycentric coordinates lie in [0, 1] and sum to 1.
+    #[error("{0:?} are no barycentric coordinates")]
+    BadShares([f64; 3]),
     /// A curve must follow edges.
     #[error("no edge joins the vertices {0} and {1} of the curve")]
     NoEdge(usize, usize),
@@ -83,6 +86,9 @@ pub enum DisplacementError {
     /// `gram` and `cardinal` are for feet.
     #[error("item {0} is a curve: only the pairwise combination and the plain sum take curves")]
     CurveNotCombined(usize),
+    /// `gram` and `cardinal` are for feet at vertices.
+    #[error("item {0} lies between vertices: only the pairwise combination and the plain sum take it")]
+    SpotNotCombined(usize),
     /// `cardinal` has one set of equations for all feet.
     #[error("items 0 and {0} have different directions: the cardinal combination needs them alike")]
     MixedDirections(usize),

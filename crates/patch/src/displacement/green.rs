@@ -7,6 +7,7 @@
 
 use super::domain::{Domain, NONE};
 use super::error::DisplacementError;
+use super::item::Item;
 use super::laplacian::Stiffness;
 use ductile_solver::SymmetricFactor;
 
@@ -74,12 +75,27 @@ impl Green {
         }
     }
 
-    /// The discrete Green's function of a vertex, at all vertices.
-    pub(super) fn function(&mut self, vertex: usize) -> Result<Vec<f64>, DisplacementError> {
-        self.part(vertex)?;
+    /// The part in which a foot can move, and which vertex of it can.
+    pub(super) fn part_of(&self, item: &Item) -> Result<(u32, usize), DisplacementError> {
+        let parts = item.load().filter(|(_, share)| *share > 0.0).map(|(v, _)| self.part(v).map(|part| (part, v)));
+        let mut refusal = Err(DisplacementError::Held(item.vertices[0]));
+        for part in parts {
+            if part.is_ok() {
+                return part;
+            }
+            refusal = part;
+        }
+        refusal
+    }
+
+    /// The discrete Green's function of a foot, at all vertices. What rests on held vertices is gone.
+    pub(super) fn function(&mut self, item: &Item) -> Result<Vec<f64>, DisplacementError> {
+        let (_, vertex) = self.part_of(item)?;
         let mut values = vec![0.0; self.numbering.count];
-        if let Some(number) = self.numbering.get(vertex) {
-            values[number] = 1.0;
+        for (vertex, share) in item.load() {
+            if let Some(number) = self.numbering.get(vertex) {
+                values[number] += share;
+            }
         }
         self.factor.solve(&mut values);
         let green = self.numbering.spread(&values, 0.0);

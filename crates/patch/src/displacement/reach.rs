@@ -50,7 +50,7 @@ impl Reach {
     /// `ln ρ` from the harmonic function, within its bounds whatever the mesh; minus infinity on the item itself.
     pub(super) fn profile(&mut self, profile: Profile) {
         let is_curve = self.item.is_curve();
-        let at_foot = self.harmonic[self.item.vertices[0]];
+        let at_foot = self.item.at_foot(&self.harmonic);
         let logarithm = |&value: &f64| {
             if !is_curve && profile == Profile::Conformal {
                 return (-core::f64::consts::TAU * value).min(0.0);
@@ -60,20 +60,26 @@ impl Reach {
             libm::log1p(-height.clamp(0.0, 1.0))
         };
         self.logarithm = self.harmonic.iter().map(logarithm).collect();
-        for &vertex in &self.item.vertices {
+        for &vertex in self.item.met() {
             self.logarithm[vertex] = f64::NEG_INFINITY;
         }
     }
 
     pub(super) fn seen(&self) -> Seen<'_> {
         let rho = self.logarithm.iter().map(|&logarithm| libm::exp(logarithm)).collect();
-        Seen { part: self.part, vertices: &self.item.vertices, rho }
+        Seen { part: self.part, vertices: self.item.met(), rho }
     }
 
     pub(super) fn refresh_blend(&mut self, function: &BlendFunction) {
         let range = self.item.range;
         let blend = |&logarithm: &f64| function.value(range.apply_to_logarithm(logarithm));
         self.blend = self.logarithm.iter().map(blend).collect();
+    }
+
+    /// The blend at the foot of another item. Between vertices `ρ` is linear: so it is where it is a cone.
+    pub(super) fn blend_at(&self, other: &Item, function: &BlendFunction) -> f64 {
+        let rho: f64 = other.load().map(|(v, share)| libm::exp(self.logarithm[v]) * share).sum();
+        function.value(self.item.range.apply_to_logarithm(libm::log(rho)))
     }
 
     pub(super) fn refresh_share(&mut self) {

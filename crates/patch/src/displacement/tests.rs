@@ -3,6 +3,7 @@
 mod held;
 mod oracle;
 mod property;
+mod spot;
 
 use super::*;
 use glam::DVec3;
