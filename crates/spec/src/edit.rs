@@ -1,6 +1,7 @@
 //! The acts of a designer. One word = one variant = one file in the modeler's `operation/` = one word of
 //! the command line = one label on the page.
 
+use crate::displacement::{Blending, Displacement};
 use crate::document::{Density, Objective};
 use crate::id::{CurveId, PointId, SurfaceId};
 use crate::surgery::{Border, Extent, On};
@@ -210,6 +211,41 @@ pub enum Edit {
         /// How; `None` sets it free.
         leave: Option<Leave>,
     },
+    /// Displaces the inside of a surface around a foot.
+    Displace {
+        /// Which surface.
+        surface: SurfaceId,
+        /// What moves, and by what. Its places lie on the surface as it is without displacements.
+        displacement: Displacement,
+    },
+    /// Puts another displacement in the place of one.
+    ChangeDisplacement {
+        /// Which surface.
+        surface: SurfaceId,
+        /// Which of its displacements, from 1.
+        number: usize,
+        /// The new one.
+        to: Displacement,
+    },
+    /// Takes a displacement away; those after it get lower numbers.
+    EraseDisplacement {
+        /// Which surface.
+        surface: SurfaceId,
+        /// Which of its displacements, from 1.
+        number: usize,
+    },
+    /// Takes all displacements of a surface away, and its pins.
+    DropDisplacements {
+        /// Which surface.
+        surface: SurfaceId,
+    },
+    /// Chooses what the displacements of a surface have in common, its pins too.
+    Blending {
+        /// Which surface.
+        surface: SurfaceId,
+        /// The choice.
+        blending: Blending,
+    },
     /// Renames the document.
     Rename {
         /// The new name, at most 200 characters.
@@ -247,6 +283,11 @@ impl Edit {
             Self::Tangent { .. } => "Tangent",
             Self::Normal { .. } => "Normal",
             Self::Ribbon { .. } => "Ribbon",
+            Self::Displace { .. } => "Displace",
+            Self::ChangeDisplacement { .. } => "Change displacement",
+            Self::EraseDisplacement { .. } => "Erase displacement",
+            Self::DropDisplacements { .. } => "Drop displacements",
+            Self::Blending { .. } => "Blending",
             Self::Rename { .. } => "Rename",
         }
     }
@@ -327,6 +368,22 @@ pub enum GrabTarget {
         surface: SurfaceId,
         /// Where, roughly.
         at: DVec3,
+    },
+    /// A place on a surface from which its inside is displaced: the place follows the hand.
+    Displace {
+        /// Which surface.
+        surface: SurfaceId,
+        /// Where, roughly, on the surface as it is shown.
+        at: DVec3,
+        /// How far around.
+        range: f64,
+    },
+    /// The foot of a displacement; of several feet the first.
+    Foot {
+        /// Which surface.
+        surface: SurfaceId,
+        /// Which of its displacements, from 1.
+        number: usize,
     },
     /// A direction at a control point. Where the hand is, less the point's place, is the direction.
     Handle(Handle),

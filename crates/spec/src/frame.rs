@@ -72,6 +72,19 @@ pub struct Structure {
     pub region_of_triangle: Vec<u16>,
     /// The control nets of exact surfaces, in the order of their vertices.
     pub nets: Vec<Net>,
+    /// The feet of displacements, in order of surface and number.
+    pub feet: Vec<FootEntry>,
+}
+
+/// A foot of a displacement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FootEntry {
+    /// Of which surface.
+    pub surface: SurfaceId,
+    /// Of which of its displacements, from 1.
+    pub number: u32,
+    /// The vertex of the frame that stands there.
+    pub vertex: u32,
 }
 
 /// The control net of an exact surface.

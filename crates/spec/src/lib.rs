@@ -20,7 +20,10 @@ mod text;
 mod validate;
 
 pub use cage::Cage;
-pub use displacement::{Displaced, Displacement};
+pub use displacement::{
+    Blend, Blending, Combination, Displaced, Displacement, Foot, Hold, LEAST_RANGE, MOST_FEET, MOST_RANGE,
+    Profile, Stretch,
+};
 pub use document::{
     Curve, Density, Document, Embedding, MAX_COORDINATE, Objective, Region, Ribbon, Side, Skeleton,
     SkeletonVertex, Surface,
@@ -29,8 +32,8 @@ pub use edit::{Edit, GrabTarget, Handle, Leave, ObjectiveOf, SpacingOf, Through}
 pub use example::Example;
 pub use fill::{Fill, FillSide};
 pub use frame::{
-    CurveRole, CurveSpan, Figures, FrameHeader, NO_REGION, Net, PointEntry, PointRole, RegionEntry,
-    Structure, SurfaceKind, SurfaceSpan, SurfaceSummary, VERTEX_FLOATS, vertex_layout,
+    CurveRole, CurveSpan, Figures, FootEntry, FrameHeader, NO_REGION, Net, PointEntry, PointRole,
+    RegionEntry, Structure, SurfaceKind, SurfaceSpan, SurfaceSummary, VERTEX_FLOATS, vertex_layout,
 };
 pub use id::{CurveId, PointId, SurfaceId};
 pub use protocol::{

@@ -7,6 +7,7 @@ use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
 use thiserror::Error;
 
+mod displacement;
 mod exact;
 
 /// Limits that keep hostile input from exhausting memory; each is far above what a designer makes.
@@ -119,6 +120,32 @@ pub enum Defect {
     /// A displacement has no surface.
     #[error("{0} has displacements and does not exist")]
     NothingToDisplace(SurfaceId),
+    /// A displacement of a surface cannot be as it is said to be.
+    #[error("{surface}, displacement {number}: {why}")]
+    Displacement {
+        /// Which surface.
+        surface: SurfaceId,
+        /// Which displacement, from 1.
+        number: usize,
+        /// What is wrong.
+        why: &'static str,
+    },
+    /// What the displacements of a surface have in common cannot be so.
+    #[error("{surface}, its displacements: {why}")]
+    Blending {
+        /// Which surface.
+        surface: SurfaceId,
+        /// What is wrong.
+        why: &'static str,
+    },
+    /// A displacement has a curve as its foot, or is pinned to one, that does not lie in the surface.
+    #[error("{surface}: its displacements hang on {curve}, which does not lie in it")]
+    DisplacedCurve {
+        /// Which surface.
+        surface: SurfaceId,
+        /// Which curve.
+        curve: CurveId,
+    },
     /// A face of a cage names a point that does not exist, or names it twice.
     #[error("{surface}, face {face}: {point} {why}")]
     CageFace {
@@ -244,7 +271,8 @@ impl Document {
         for (id, surface) in &self.surfaces {
             validate_surface(*id, surface, self)?;
         }
-        self.validate_exact()
+        self.validate_exact()?;
+        self.validate_displacements()
     }
 }
 

@@ -362,7 +362,8 @@ impl Displacements {
             }
             let is_same = |other: &Reach| {
                 let item = &other.item;
-                item.shares.is_some() && (&item.vertices, item.shares) == (&reach.item.vertices, reach.item.shares)
+                item.shares.is_some()
+                    && (&item.vertices, item.shares) == (&reach.item.vertices, reach.item.shares)
             };
             if let Some(other) = reaches[..index].iter().position(is_same) {
                 return Err(DisplacementError::Touching(other, index, reach.item.vertices[0]));

@@ -77,7 +77,8 @@ impl Green {
 
     /// The part in which a foot can move, and which vertex of it can.
     pub(super) fn part_of(&self, item: &Item) -> Result<(u32, usize), DisplacementError> {
-        let parts = item.load().filter(|(_, share)| *share > 0.0).map(|(v, _)| self.part(v).map(|part| (part, v)));
+        let parts =
+            item.load().filter(|(_, share)| *share > 0.0).map(|(v, _)| self.part(v).map(|part| (part, v)));
         let mut refusal = Err(DisplacementError::Held(item.vertices[0]));
         for part in parts {
             if part.is_ok() {

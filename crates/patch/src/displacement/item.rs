@@ -143,7 +143,8 @@ impl Item {
         if let Some(&vertex) = self.vertices.iter().find(|&&vertex| vertex >= count) {
             return Err(DisplacementError::NoVertex { vertex, count });
         }
-        let back = (self.is_closed || self.shares.is_some()).then(|| [self.vertices[self.vertices.len() - 1], self.vertices[0]]);
+        let back = (self.is_closed || self.shares.is_some())
+            .then(|| [self.vertices[self.vertices.len() - 1], self.vertices[0]]);
         for [a, b] in self.vertices.windows(2).map(|pair| [pair[0], pair[1]]).chain(back) {
             if !domain.joins(a, b) {
                 return Err(DisplacementError::NoEdge(a, b));

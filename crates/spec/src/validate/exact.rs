@@ -1,7 +1,7 @@
-//! What the exact surfaces of a document must satisfy, and what moves surfaces. Whether the faces of a cage form a surface is
+//! What the exact surfaces of a document must satisfy. Whether the faces of a cage form a surface is
 //! for the patches to say.
 
-use super::{Defect, MAX_SURFACES, MAX_TRIANGLES, coordinate, limit};
+use super::{Defect, MAX_SURFACES, MAX_TRIANGLES, limit};
 use crate::cage::Cage;
 use crate::document::{Curve, Document};
 use crate::fill::Fill;
@@ -10,7 +10,7 @@ use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
 
 impl Document {
-    /// Cages, fills and displacements: every reference is kept, every number is in range.
+    /// Cages and fills: every reference is kept, every number is in range.
     pub(super) fn validate_exact(&self) -> Result<(), Defect> {
         limit("surfaces", self.surfaces.len() + self.cages.len() + self.fills.len(), MAX_SURFACES)?;
         let corners = self.cages.values().flat_map(|cage| &cage.faces).map(Vec::len).sum();
@@ -26,15 +26,6 @@ impl Document {
                 return Err(Defect::TwoKinds(*id));
             }
             validate_fill(*id, fill, &self.curves)?;
-        }
-        for (id, displaced) in &self.displacements {
-            if self.kind_of(*id).is_none() {
-                return Err(Defect::NothingToDisplace(*id));
-            }
-            for (k, item) in displaced.items.iter().enumerate() {
-                coordinate(&format!("{id}, foot of displacement {k}"), item.foot)?;
-                coordinate(&format!("{id}, displacement {k}"), item.by)?;
-            }
         }
         Ok(())
     }
