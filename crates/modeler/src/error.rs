@@ -1,6 +1,7 @@
 //! Why the modeler refuses: typed, with the offending thing in the message, in words for the designer.
 
 use ductile_mesh::{BridgeError, BuildError, GlueError, IntersectError, PathError};
+use ductile_patch::DisplacementError;
 use ductile_patch::cage::CageError;
 use ductile_solver::SolverError;
 use ductile_spec::{CurveId, Defect, Document, LinkError, PointId, SurfaceId, SurfaceKind, TextError};
@@ -67,6 +68,35 @@ pub enum ModelError {
     #[error("{curve} is a side of {surface}: delete the surface first")]
     NeededByFill {
         /// The fill.
+        surface: SurfaceId,
+        /// The curve.
+        curve: CurveId,
+    },
+    /// A displacement cannot be met.
+    #[error("{surface}, displacement {number}: {}", displaced(reason))]
+    Displacement {
+        /// Which surface.
+        surface: SurfaceId,
+        /// Which displacement, from 1.
+        number: usize,
+        /// What is wrong with it.
+        reason: DisplacementError,
+    },
+    /// There is no such displacement.
+    #[error("{surface} has no displacement {number}")]
+    NoDisplacement {
+        /// Which surface.
+        surface: SurfaceId,
+        /// Which displacement, from 1.
+        number: usize,
+    },
+    /// A surface has no displacements.
+    #[error("{0} has no displacements")]
+    NotDisplaced(SurfaceId),
+    /// A displacement has the curve as its foot, or is pinned to it.
+    #[error("a displacement of {surface} hangs on {curve}: erase it first")]
+    NeededByDisplacement {
+        /// Which surface.
         surface: SurfaceId,
         /// The curve.
         curve: CurveId,
@@ -352,6 +382,23 @@ pub enum ModelError {
     /// Another act has to be finished first.
     #[error("finish the drag first")]
     Dragging,
+}
+
+/// Why a displacement cannot be met, in words for the designer.
+fn displaced(reason: &DisplacementError) -> String {
+    let why = match reason {
+        DisplacementError::Held(_) => "its foot is on the boundary or on a pin, which stay where they are",
+        DisplacementError::NoBoundary(_) => {
+            "the surface is closed, so that all of it would move: pin a place that stays first"
+        }
+        DisplacementError::Touching(..) => "there is a foot at this place already; change that one",
+        DisplacementError::BadPosition(_) => "there is no surface for its foot to stand on",
+        DisplacementError::FlatTriangle(_) | DisplacementError::Unsolvable(_) => {
+            "the triangles there are too bad; wait until the surface rests, or make the spacing smaller"
+        }
+        other => return other.to_string(),
+    };
+    why.to_owned()
 }
 
 impl ModelError {

@@ -1,14 +1,15 @@
 //! What is drawn: the model in the layout of `ductile-spec`'s frame. This is the only place where f64
 //! becomes f32.
 
+use crate::displaced::{Displacer, Overlay};
 use crate::model::Model;
 use crate::region;
 use crate::relax::Relaxer;
 use crate::shape::SurfaceShape;
 use ductile_mesh::Mesh;
 use ductile_spec::{
-    CurveId, CurveRole, CurveSpan, NO_REGION, Net, PointEntry, PointId, PointRole, RegionEntry, Structure,
-    SurfaceId, SurfaceKind, SurfaceSpan, SurfaceSummary, VERTEX_FLOATS,
+    CurveId, CurveRole, CurveSpan, FootEntry, NO_REGION, Net, PointEntry, PointId, PointRole, RegionEntry,
+    Structure, SurfaceId, SurfaceKind, SurfaceSpan, SurfaceSummary, VERTEX_FLOATS,
 };
 use glam::DVec3;
 
@@ -26,25 +27,31 @@ pub(crate) struct Frame {
 
 impl Frame {
     /// Writes the model as it is now. Returns whether the structure changed.
-    pub(crate) fn write(&mut self, model: &Model, relaxer: &Relaxer) -> bool {
-        let key = key(model);
+    pub(crate) fn write(&mut self, model: &Model, relaxer: &Relaxer, displacer: &Displacer) -> bool {
+        let mut key = key(model);
+        let overlays = displacer.overlays().map(|(id, overlay)| (id.0, overlay.revision));
+        key.extend(overlays);
         let changed = key != self.key || self.structure.version == 0;
         if changed {
             self.key = key;
-            self.restructure(model, relaxer);
+            self.restructure(model, relaxer, displacer);
         }
         self.floats.clear();
         for (id, shape) in &model.surfaces {
+            if let Some(overlay) = displacer.get(*id) {
+                self.write_vertices(overlay.positions(), overlay.normals());
+                continue;
+            }
             let Some(bound) = relaxer.surface(*id, shape) else { continue };
             for (vertex, normal) in bound.vertices().iter().zip(bound.normals()) {
                 push(&mut self.floats, shape.positions[vertex.index()]);
                 push(&mut self.floats, *normal);
             }
         }
-        for shape in model.patches.values() {
-            for (at, normal) in shape.positions().iter().zip(shape.normals()) {
-                push(&mut self.floats, *at);
-                push(&mut self.floats, *normal);
+        for (id, shape) in &model.patches {
+            match displacer.get(*id) {
+                Some(overlay) => self.write_vertices(overlay.positions(), overlay.normals()),
+                None => self.write_vertices(shape.positions(), shape.normals()),
             }
         }
         for node in model.curves.values().flat_map(|shape| &shape.nodes) {
@@ -59,7 +66,14 @@ impl Frame {
         changed
     }
 
-    fn restructure(&mut self, model: &Model, relaxer: &Relaxer) {
+    fn write_vertices(&mut self, positions: &[DVec3], normals: &[DVec3]) {
+        for (at, normal) in positions.iter().zip(normals) {
+            push(&mut self.floats, *at);
+            push(&mut self.floats, *normal);
+        }
+    }
+
+    fn restructure(&mut self, model: &Model, relaxer: &Relaxer, displacer: &Displacer) {
         let version = self.structure.version.wrapping_add(1).max(1);
         let mut structure = Structure { version, ..Structure::default() };
         self.indices.clear();
@@ -67,11 +81,17 @@ impl Frame {
         for (id, shape) in &model.surfaces {
             let Some(bound) = relaxer.surface(*id, shape) else { continue };
             let first_index = count(self.indices.len());
-            self.indices.extend(bound.triangles().iter().flatten().map(|v| v + first_vertex));
-            let vertex_count = count(bound.vertices().len());
+            let overlay = displacer.get(*id);
+            let triangles = overlay.map_or(bound.triangles(), |overlay| overlay.triangles());
+            self.indices.extend(triangles.iter().flatten().map(|v| v + first_vertex));
+            let vertices = overlay.map_or(bound.vertices().len(), |overlay| overlay.positions().len());
+            let vertex_count = count(vertices);
             let index_count = count(self.indices.len()) - first_index;
             let summary = summarise(&shape.mesh);
             divide(&mut structure, *id, shape, model);
+            if let Some(overlay) = overlay {
+                stand(&mut structure, *id, overlay, first_vertex);
+            }
             structure.surfaces.push(SurfaceSpan {
                 id: *id,
                 first_vertex,
@@ -83,7 +103,7 @@ impl Frame {
             });
             first_vertex += vertex_count;
         }
-        self.append_patches(&mut structure, model, first_vertex);
+        self.append_patches(&mut structure, model, displacer, first_vertex);
         let mut first = 0;
         for (id, shape) in &model.curves {
             let samples = count(shape.nodes.len());
@@ -109,13 +129,24 @@ impl Frame {
     }
 
     /// Exact surfaces come after the fair ones, and their nets.
-    fn append_patches(&mut self, structure: &mut Structure, model: &Model, mut first_vertex: u32) {
+    fn append_patches(
+        &mut self,
+        structure: &mut Structure,
+        model: &Model,
+        displacer: &Displacer,
+        mut first_vertex: u32,
+    ) {
         let mut first = 0;
         for (id, shape) in &model.patches {
             let first_index = count(self.indices.len());
-            self.indices.extend(shape.triangles().iter().flatten().map(|v| v + first_vertex));
-            let vertex_count = count(shape.positions().len());
+            let overlay = displacer.get(*id);
+            let triangles = overlay.map_or(shape.triangles(), |overlay| overlay.triangles());
+            self.indices.extend(triangles.iter().flatten().map(|v| v + first_vertex));
+            let vertex_count = count(overlay.map_or(shape.positions(), |overlay| overlay.positions()).len());
             structure.region_of_triangle.extend(shape.triangles().iter().map(|_| NO_REGION));
+            if let Some(overlay) = overlay {
+                stand(structure, *id, overlay, first_vertex);
+            }
             structure.surfaces.push(SurfaceSpan {
                 id: *id,
                 first_vertex,
@@ -136,6 +167,18 @@ impl Frame {
             first += count(vertices.len());
         }
     }
+}
+
+/// Says where the feet of displacements stand, and of which regions the triangles are that were cut there.
+fn stand(structure: &mut Structure, surface: SurfaceId, overlay: &Overlay, first_vertex: u32) {
+    let own = structure.region_of_triangle.len() - overlay.base_triangles();
+    let regions = structure.region_of_triangle.split_off(own);
+    structure.region_of_triangle.extend(overlay.parents().iter().map(|&parent| regions[parent as usize]));
+    structure.feet.extend(overlay.feet().map(|(index, vertex)| FootEntry {
+        surface,
+        number: count(index + 1),
+        vertex: first_vertex + count(vertex),
+    }));
 }
 
 /// Says which triangle belongs to which region, where there are several.

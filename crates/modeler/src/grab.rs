@@ -66,6 +66,8 @@ impl Grab {
             GrabTarget::Point(point) => model.point(point).map(|_| point)?,
             GrabTarget::Curve { curve, at } => insert(model, curve, at)?,
             GrabTarget::Surface { surface, at } => pin(model, relaxer, surface, at)?,
+            // A foot is no control point: `Pull` drags it.
+            GrabTarget::Displace { .. } | GrabTarget::Foot { .. } => return Err(ModelError::NothingHeld),
             GrabTarget::Handle(Handle::Tangent { curve, point }) => {
                 let through = model.document.curves.get(&curve).map(|curve| &curve.through);
                 let is_on = through.ok_or(ModelError::NoCurve(curve))?.contains(&point);

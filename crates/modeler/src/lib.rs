@@ -7,6 +7,7 @@
 
 mod bound;
 mod density;
+mod displaced;
 mod error;
 mod example;
 mod frame;
@@ -19,6 +20,7 @@ mod network;
 mod operation;
 mod patch;
 mod plane;
+mod pull;
 mod region;
 mod rehydrate;
 mod relax;

@@ -1,5 +1,8 @@
 //! The one door: requests go in, replies come out, the model stays whole.
 
+mod displacing;
+
+use crate::displaced::{Displacer, Footprints};
 use crate::error::ModelError;
 use crate::example::example;
 use crate::frame::Frame;
@@ -8,12 +11,13 @@ use crate::history::{History, State};
 use crate::model::Model;
 use crate::operation;
 use crate::patch;
+use crate::pull::Pull;
 use crate::relax::Relaxer;
 use ductile_mesh::Mesh;
 use ductile_mesh::io::obj;
 use ductile_spec::{
-    Committed, Document, Edit, ExportFormat, Exported, FrameHeader, GrabTarget, Grabbed, Meeting, Refusal,
-    Reply, Request, Resume, Step, SurfaceId, from_fragment, from_text, to_compact_text,
+    Committed, Document, Edit, ExportFormat, Exported, FrameHeader, GrabTarget, Grabbed, Meeting, Pulled,
+    Refusal, Reply, Request, Resume, Step, SurfaceId, from_fragment, from_text, to_compact_text,
 };
 use glam::DVec3;
 
@@ -33,7 +37,11 @@ pub struct Modeler {
     model: Model,
     history: History,
     relaxer: Relaxer,
+    displacer: Displacer,
     grab: Option<Grab>,
+    pull: Option<Pull>,
+    /// Where feet stood when the drag under way began.
+    footprints: Footprints,
     frame: Frame,
     describe: bool,
 }
@@ -43,6 +51,7 @@ pub struct Modeler {
 struct Outcome {
     committed: Option<String>,
     grabbed: Option<Grabbed>,
+    pulled: Option<Pulled>,
     exported: Option<Exported>,
     meeting: Option<Meeting>,
 }
@@ -86,6 +95,7 @@ impl Modeler {
             Ok(outcome) => {
                 reply.committed = outcome.committed.map(|act| self.committed(act));
                 reply.grabbed = outcome.grabbed;
+                reply.pulled = outcome.pulled;
                 reply.exported = outcome.exported;
                 reply.meeting = outcome.meeting;
             }
@@ -96,7 +106,9 @@ impl Modeler {
         }
         self.relaxer.bind(&self.model);
         patch::follow(&mut self.model);
-        let changed = self.frame.write(&self.model, &self.relaxer);
+        let is_at_rest = self.relaxer.is_settled() && !self.is_holding();
+        self.displacer.refresh(&self.model, &self.relaxer, is_at_rest);
+        let changed = self.frame.write(&self.model, &self.relaxer, &self.displacer);
         if changed || self.describe {
             reply.structure = Some(self.frame.structure.clone());
             self.describe = false;
@@ -146,6 +158,10 @@ impl Modeler {
         if let Some(grab) = self.grab.take() {
             self.restore(grab.before);
         }
+        if let Some(pull) = self.pull.take() {
+            self.let_displacements_be(pull.before);
+        }
+        self.displacer.forget();
         fresh.continue_revisions(&self.model);
         fresh.renew_revisions();
         let before = core::mem::replace(&mut self.model, fresh);
@@ -157,7 +173,8 @@ impl Modeler {
     /// Goes on where another modeler stopped, with its history in place of this one's own.
     fn resume(&mut self, resume: &Resume) -> Result<Outcome, ModelError> {
         let mut fresh = Model::from_document(from_text(&resume.document)?)?;
-        self.grab = None;
+        (self.grab, self.pull) = (None, None);
+        self.displacer.forget();
         fresh.continue_revisions(&self.model);
         fresh.renew_revisions();
         self.model = fresh;
@@ -175,11 +192,11 @@ impl Modeler {
     }
 
     fn edit(&mut self, edit: &Edit) -> Result<Outcome, ModelError> {
-        if self.grab.is_some() {
+        if self.is_holding() {
             return Err(ModelError::Dragging);
         }
         let before = self.model.clone();
-        match operation::apply(&mut self.model, &self.relaxer, edit) {
+        match self.act(edit, &before) {
             Ok(()) => {
                 self.history.record(edit.label(), before);
                 self.relaxer.wake();
@@ -193,15 +210,20 @@ impl Modeler {
     }
 
     fn take_hold(&mut self, target: GrabTarget) -> Result<Outcome, ModelError> {
-        if self.grab.is_some() {
+        if self.is_holding() {
             return Err(ModelError::Dragging);
         }
+        if let Some(outcome) = self.pull(target) {
+            return outcome;
+        }
         let before = self.model.clone();
+        let target = self.displacer.target_on_base(target);
         match Grab::begin(&mut self.model, &self.relaxer, target) {
             Ok(grab) => {
                 let at = self.model.point(grab.point).unwrap_or(DVec3::ZERO);
                 let grabbed = Grabbed { point: grab.point, at };
                 self.grab = Some(grab);
+                self.footprints = self.displacer.footprints();
                 self.relaxer.wake();
                 Ok(Outcome { grabbed: Some(grabbed), ..Outcome::default() })
             }
@@ -213,6 +235,9 @@ impl Modeler {
     }
 
     fn step(&mut self, step: Step) {
+        if let Some(to) = step.drag {
+            self.pull_to(to);
+        }
         if let (Some(grab), Some(to)) = (self.grab.as_mut(), step.drag) {
             match grab.follow(&mut self.model, to) {
                 Some(moved) => self.relaxer.hand_moved(moved),
@@ -230,7 +255,11 @@ impl Modeler {
     }
 
     fn let_go(&mut self) -> Result<Outcome, ModelError> {
+        if let Some(pull) = self.pull.take() {
+            return self.end_pull(pull);
+        }
         let mut grab = self.grab.take().ok_or(ModelError::NothingHeld)?;
+        let footprints = std::mem::take(&mut self.footprints);
         if !grab.has_moved {
             self.restore(grab.before);
             return Ok(Outcome::default());
@@ -245,6 +274,7 @@ impl Modeler {
                 if grab.rescue(&mut self.model, self.relaxer.energy(), true) {
                     self.relaxer.count_rescue();
                 }
+                self.carry_feet(&footprints)?;
                 self.history.record(act, grab.before);
                 self.relaxer.wake();
                 Ok(Outcome { committed: Some(act.to_owned()), ..Outcome::default() })
@@ -257,13 +287,17 @@ impl Modeler {
     }
 
     fn put_back(&mut self) -> Result<Outcome, ModelError> {
+        if let Some(pull) = self.pull.take() {
+            self.let_displacements_be(pull.before);
+            return Ok(Outcome::default());
+        }
         let grab = self.grab.take().ok_or(ModelError::NothingHeld)?;
         self.restore(grab.before);
         Ok(Outcome::default())
     }
 
     fn undo(&mut self) -> Result<Outcome, ModelError> {
-        if self.grab.is_some() {
+        if self.is_holding() {
             return Err(ModelError::Dragging);
         }
         let state = self.history.before_last().ok_or(ModelError::NothingToUndo)?;
@@ -273,7 +307,7 @@ impl Modeler {
     }
 
     fn redo(&mut self) -> Result<Outcome, ModelError> {
-        if self.grab.is_some() {
+        if self.is_holding() {
             return Err(ModelError::Dragging);
         }
         let state = self.history.after_next().ok_or(ModelError::NothingToRedo)?;
@@ -313,15 +347,23 @@ impl Modeler {
         for (id, shape) in &self.model.surfaces {
             let Some(bound) = self.relaxer.surface(*id, shape) else { continue };
             let first = u32::try_from(positions.len()).unwrap_or(u32::MAX);
+            if let Some(overlay) = self.displacer.get(*id) {
+                positions.extend_from_slice(overlay.positions());
+                normals.extend_from_slice(overlay.normals());
+                triangles.extend(overlay.triangles().iter().map(|t| t.map(|v| v + first)));
+                continue;
+            }
             positions.extend(bound.vertices().iter().map(|v| shape.positions[v.index()]));
             normals.extend_from_slice(bound.normals());
             triangles.extend(bound.triangles().iter().map(|t| t.map(|v| v + first)));
         }
-        for shape in self.model.patches.values() {
+        for (id, shape) in &self.model.patches {
             let first = u32::try_from(positions.len()).unwrap_or(u32::MAX);
-            positions.extend_from_slice(shape.positions());
-            normals.extend_from_slice(shape.normals());
-            triangles.extend(shape.triangles().iter().map(|t| t.map(|v| v + first)));
+            let overlay = self.displacer.get(*id);
+            positions.extend_from_slice(overlay.map_or(shape.positions(), |overlay| overlay.positions()));
+            normals.extend_from_slice(overlay.map_or(shape.normals(), |overlay| overlay.normals()));
+            let shown = overlay.map_or(shape.triangles(), |overlay| overlay.triangles());
+            triangles.extend(shown.iter().map(|t| t.map(|v| v + first)));
         }
         let mesh = Mesh::from_triangles(positions.len(), &triangles)
             .map_err(|reason| ModelError::NotASurface { surface: SurfaceId(0), reason })?;
@@ -332,7 +374,9 @@ impl Modeler {
 
     fn committed(&self, act: String) -> Committed {
         // Asked for in the middle of a drag, the document is the one before it: a drag is no act until it ends.
-        let document = &self.grab.as_ref().map_or(&self.model, |grab| &grab.before).document;
+        let held = self.grab.as_ref().map(|grab| &grab.before);
+        let held = held.or(self.pull.as_ref().map(|pull| &pull.before));
+        let document = &held.unwrap_or(&self.model).document;
         Committed {
             act,
             document: to_compact_text(document),

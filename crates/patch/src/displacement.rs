@@ -26,7 +26,7 @@ pub use erbs::Erbs;
 pub use error::DisplacementError;
 pub use item::Item;
 pub use laplacian::{Direction, Laplacian};
-pub use place::{Placed, place};
+pub use place::{Placed, nearest_spot, place};
 pub use reach::Profile;
 
 #[cfg(test)]

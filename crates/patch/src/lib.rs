@@ -26,7 +26,7 @@ pub use bezier::{
 };
 pub use displacement::{
     Blend, BlendError, BlendFunction, Combination, Direction, DisplacementError, Displacements, Domain, Erbs,
-    Item, ItemReport, Laplacian, Placed, Profile, Range, Settings, place,
+    Item, ItemReport, Laplacian, Placed, Profile, Range, Settings, nearest_spot, place,
 };
 pub use ribbon::{
     Adjusted, MOST_DEGREE, MOST_SIDES, NoNormal, PlaneSample, Planed, Ribbon, RibbonError, RibbonLoop,

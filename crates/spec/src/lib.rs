@@ -37,8 +37,8 @@ pub use frame::{
 };
 pub use id::{CurveId, PointId, SurfaceId};
 pub use protocol::{
-    Committed, ExportFormat, Exported, Grabbed, Meeting, MeetingLine, Refusal, Remembered, Reply, Request,
-    Resume, Step, TRAP,
+    Committed, ExportFormat, Exported, Grabbed, Meeting, MeetingLine, Pulled, Refusal, Remembered, Reply,
+    Request, Resume, Step, TRAP,
 };
 pub use share::{FRAGMENT_KEY, LinkError, MAX_LINK_BYTES, from_fragment, to_fragment};
 pub use surgery::{Border, Extent, On};

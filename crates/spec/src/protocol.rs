@@ -108,6 +108,8 @@ pub struct Reply {
     pub committed: Option<Committed>,
     /// What a grab took hold of.
     pub grabbed: Option<Grabbed>,
+    /// The foot of a displacement that a grab took hold of.
+    pub pulled: Option<Pulled>,
     /// Why a request was refused.
     pub refused: Option<Refusal>,
     /// A file that was asked for.
@@ -137,6 +139,17 @@ pub struct Grabbed {
     /// The control point, new or old.
     pub point: PointId,
     /// Where it is.
+    pub at: DVec3,
+}
+
+/// The foot of a displacement that a grab took hold of.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Pulled {
+    /// Of which surface.
+    pub surface: SurfaceId,
+    /// Of which of its displacements, from 1.
+    pub number: usize,
+    /// Where it is shown.
     pub at: DVec3,
 }
 

@@ -6,6 +6,7 @@ mod crease;
 mod curve;
 pub(crate) mod delete;
 mod density;
+mod displace;
 mod expand;
 mod glue;
 mod insert;
@@ -30,6 +31,7 @@ mod tangent;
 mod trim;
 
 use crate::bound::BoundSurface;
+use crate::displaced::Displacer;
 use crate::error::ModelError;
 use crate::maintain;
 use crate::model::Model;
@@ -52,7 +54,15 @@ const POSITION_DIGITS: i32 = 6;
 ///
 /// # Errors
 /// [`ModelError`] says why it cannot be done; the model may then be half changed and must be dropped.
-pub(crate) fn apply(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result<(), ModelError> {
+pub(crate) fn apply(
+    model: &mut Model,
+    relaxer: &Relaxer,
+    displacer: &mut Displacer,
+    edit: &Edit,
+) -> Result<(), ModelError> {
+    if let Some(outcome) = displacing((model, relaxer, displacer), edit) {
+        return outcome;
+    }
     act(model, relaxer, edit)?;
     for id in model.surfaces.keys().copied().collect::<Vec<_>>() {
         let is_new = model.surfaces.get(&id).is_some_and(|shape| relaxer.surface(id, shape).is_none());
@@ -65,6 +75,34 @@ pub(crate) fn apply(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result
         }
     }
     model.check_extents()
+}
+
+/// Whether an act is about displacements, which lie over the shapes and change none of them.
+pub(crate) fn displaces(edit: &Edit) -> bool {
+    matches!(
+        edit,
+        Edit::Displace { .. }
+            | Edit::ChangeDisplacement { .. }
+            | Edit::EraseDisplacement { .. }
+            | Edit::DropDisplacements { .. }
+            | Edit::Blending { .. }
+    )
+}
+
+/// Does an act on displacements; nothing if it is another one.
+fn displacing(
+    (model, relaxer, displacer): (&mut Model, &Relaxer, &mut Displacer),
+    edit: &Edit,
+) -> Option<Result<(), ModelError>> {
+    let all = (&mut *model, relaxer, displacer);
+    Some(match edit {
+        Edit::Displace { surface, displacement } => displace::displace(all, *surface, displacement),
+        Edit::ChangeDisplacement { surface, number, to } => displace::change(all, *surface, *number, to),
+        Edit::EraseDisplacement { surface, number } => displace::erase(model, *surface, *number),
+        Edit::DropDisplacements { surface } => displace::drop_all(model, *surface),
+        Edit::Blending { surface, blending } => displace::blend(all, *surface, blending),
+        _ => return None,
+    })
 }
 
 fn act(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result<(), ModelError> {
@@ -103,6 +141,12 @@ fn act(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result<(), ModelErr
             model.document_mut().name.clone_from(name);
             Ok(model.document.validate()?)
         }
+        // Done by `displacing`.
+        Edit::Displace { .. }
+        | Edit::ChangeDisplacement { .. }
+        | Edit::EraseDisplacement { .. }
+        | Edit::DropDisplacements { .. }
+        | Edit::Blending { .. } => Ok(()),
     }
 }
 

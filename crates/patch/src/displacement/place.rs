@@ -36,17 +36,7 @@ pub fn place(
     if let Some(&v) = triangles.as_flattened().iter().find(|&&v| v as usize >= count) {
         return Err(DisplacementError::NoVertex { vertex: v as usize, count });
     }
-    let mut best: Option<(f64, usize, [f64; 3])> = None;
-    for (index, triangle) in triangles.iter().enumerate() {
-        let corners = triangle.map(|v| positions[v as usize]);
-        let shares = nearest(corners, point);
-        let distance = at(corners, shares).distance(point);
-        if best.is_none_or(|(least, ..)| distance < least) {
-            best = Some((distance, index, shares));
-        }
-    }
-    let best = best.filter(|(distance, ..)| distance.is_finite());
-    let (_, index, shares) = best.ok_or(DisplacementError::BadPosition(count))?;
+    let (index, shares) = nearest_of(positions, triangles, point)?;
     let triangle = triangles[index];
     let corners = triangle.map(|v| positions[v as usize]);
     let corner = (0..3).fold(0, |a, b| if shares[b] > shares[a] { b } else { a });
@@ -72,6 +62,42 @@ pub fn place(
     };
     positions.push(position);
     Ok(Placed { vertex: count, distance: position.distance(point), is_new: true })
+}
+
+/// The place of a surface nearest to a point: corners of its triangle and barycentric coordinates, which sum to 1.
+///
+/// # Errors
+/// As [`place`].
+pub fn nearest_spot(
+    positions: &[DVec3],
+    triangles: &[[u32; 3]],
+    point: DVec3,
+) -> Result<([u32; 3], [f64; 3]), DisplacementError> {
+    let count = positions.len();
+    if let Some(&v) = triangles.as_flattened().iter().find(|&&v| v as usize >= count) {
+        return Err(DisplacementError::NoVertex { vertex: v as usize, count });
+    }
+    let (index, shares) = nearest_of(positions, triangles, point)?;
+    Ok((triangles[index], shares))
+}
+
+/// The nearest triangle and the coordinates in it; all corners exist.
+fn nearest_of(
+    positions: &[DVec3],
+    triangles: &[[u32; 3]],
+    point: DVec3,
+) -> Result<(usize, [f64; 3]), DisplacementError> {
+    let mut best: Option<(f64, usize, [f64; 3])> = None;
+    for (index, triangle) in triangles.iter().enumerate() {
+        let corners = triangle.map(|v| positions[v as usize]);
+        let shares = nearest(corners, point);
+        let distance = at(corners, shares).distance(point);
+        if best.is_none_or(|(least, ..)| distance < least) {
+            best = Some((distance, index, shares));
+        }
+    }
+    let best = best.filter(|(distance, ..)| distance.is_finite());
+    best.map(|(_, index, shares)| (index, shares)).ok_or(DisplacementError::BadPosition(positions.len()))
 }
 
 /// Cuts the triangles of an edge in two.
