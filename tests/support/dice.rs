@@ -3,8 +3,8 @@
 use ductile_mesh::measure::face_normal;
 use ductile_modeler::{Model, SurfaceShape};
 use ductile_spec::{
-    Border, CurveId, Edit, Extent, Leave, Objective, ObjectiveOf, On, PointId, Request, SpacingOf, Step,
-    SurfaceId, Through,
+    Blending, Border, Combination, CurveId, Displacement, Edit, Extent, Hold, Leave, Objective, ObjectiveOf,
+    On, PointId, Request, SpacingOf, Step, SurfaceId, Through,
 };
 use glam::DVec3;
 
@@ -175,7 +175,26 @@ fn edit(dice: &mut Dice, model: &Model) -> Edit {
             }
             Edit::Curve { through, closed }
         }
+        _ if dice.coin() => displacing(dice, surface, at),
         _ => Edit::Tangent { curve, point, direction: Some(dice.vector()) },
+    }
+}
+
+/// An act on displacements.
+fn displacing(dice: &mut Dice, surface: SurfaceId, at: DVec3) -> Edit {
+    let range = 0.9 - 2.0 * dice.unit();
+    let displacement = Displacement { range, ..Displacement::new(at, 0.3 * dice.vector()) };
+    let number = 1 + dice.below(3);
+    match dice.below(8) {
+        0 => Edit::ChangeDisplacement { surface, number, to: displacement },
+        1 => Edit::EraseDisplacement { surface, number },
+        2 => Edit::DropDisplacements { surface },
+        3 => {
+            let pins = vec![Hold::Around { at, radius: 0.2 * dice.unit() }];
+            let combination = if dice.coin() { Combination::Plain } else { Combination::Pairwise };
+            Edit::Blending { surface, blending: Blending { pins, combination, ..Blending::default() } }
+        }
+        _ => Edit::Displace { surface, displacement },
     }
 }
 

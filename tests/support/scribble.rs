@@ -6,8 +6,8 @@ use crate::round::Round;
 use crate::shapes;
 use ductile_modeler::Model;
 use ductile_spec::{
-    CurveId, Edit, ExportFormat, Extent, GrabTarget, Handle, ObjectiveOf, On, PointId, Request, Resume,
-    SpacingOf, Step, SurfaceId, Through, to_compact_text, to_fragment,
+    CurveId, Displacement, Edit, ExportFormat, Extent, GrabTarget, Handle, ObjectiveOf, On, PointId, Request,
+    Resume, SpacingOf, Step, SurfaceId, Through, to_compact_text, to_fragment,
 };
 use glam::DVec3;
 
@@ -96,6 +96,8 @@ fn target(dice: &mut Dice, model: &Model, surface: SurfaceId) -> GrabTarget {
         0..=1 => GrabTarget::Point(point),
         2 => GrabTarget::Curve { curve, at },
         3..=4 => GrabTarget::Surface { surface, at },
+        _ if dice.coin() => GrabTarget::Displace { surface, at, range: 0.9 - 2.0 * dice.unit() },
+        _ if dice.coin() => GrabTarget::Foot { surface, number: dice.below(3) },
         _ => GrabTarget::Handle(Handle::Tangent { curve, point }),
     }
 }
@@ -147,6 +149,10 @@ fn wild_edit(dice: &mut Dice, model: &Model, surface: SurfaceId) -> Edit {
             Edit::Spacing { of, spacing: Some(number(dice)) }
         }
         12 => Edit::Tangent { curve, point, direction: Some(wild) },
+        13 if dice.coin() => Edit::Displace {
+            surface,
+            displacement: Displacement { range: number(dice), ..Displacement::new(at, wild) },
+        },
         13 => Edit::Normal { surface, point, normal: Some(wild) },
         _ => Edit::Objective { of: ObjectiveOf::Region { surface, at: wild }, objective: None },
     }

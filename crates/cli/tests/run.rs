@@ -116,3 +116,40 @@ fn every_act_of_the_user_guide_is_understood() {
         assert!(read.is_ok(), "{act}: {}", read.unwrap_err());
     }
 }
+
+#[test]
+fn a_surface_is_displaced_and_the_document_says_how() {
+    let folder = tempfile::tempdir().unwrap();
+    let [spec, plain, pulled] =
+        ["hill.ductile.json", "plain.obj", "pulled.obj"].map(|name| folder.path().join(name));
+    let [spec, plain, pulled] = [&spec, &plain, &pulled].map(|file| file.to_str().unwrap());
+    let done = run(folder.path(), HILL, &["-o", spec, "--obj", plain]);
+    assert!(done.status.success(), "{}", said(&done));
+    let script = r#"[
+      {"displace": {"surface": 1, "displacement": {"foot": {"at": [0.4, 0.1, 0.3]}, "by": [0, 0, 0.5], "range": 0.3}}},
+      {"displace": {"surface": 1, "displacement": {"foot": {"at": [-0.4, 0.1, 0.3]}, "by": [0, 0, 9]}}},
+      {"change-displacement": {"surface": 1, "number": 2, "to": {"foot": {"at": [-0.4, 0.1, 0.3]}, "by": [0.25, 0, 0]}}},
+      {"blending": {"surface": 1, "blending": {"blend": {"bump": 1}}}},
+      {"erase-displacement": {"surface": 1, "number": 2}},
+      "rest"
+    ]"#;
+    let done = run(folder.path(), script, &["--from", spec, "-o", spec, "--obj", pulled]);
+    assert!(done.status.success(), "{}", said(&done));
+    let document = ductile_spec::from_text(&std::fs::read_to_string(spec).unwrap()).unwrap();
+    let displaced = &document.displacements[&ductile_spec::SurfaceId(1)];
+    assert_eq!((displaced.items.len(), displaced.blending.blend), (1, ductile_spec::Blend::Bump(1.0)));
+    let highest = |file: &str| {
+        let text = std::fs::read_to_string(file).unwrap();
+        let heights =
+            text.lines().filter_map(|line| line.strip_prefix("v ")?.split(' ').nth(2)?.parse::<f64>().ok());
+        heights.fold(0.0, f64::max)
+    };
+    assert!(highest(pulled) > highest(plain) + 0.2, "{} over {}", highest(pulled), highest(plain));
+    let more = r#"[{"drop-displacements": {"surface": 1}}, {"drop-displacements": {"surface": 1}}]"#;
+    let refused = run(folder.path(), more, &["--from", spec]);
+    assert!(
+        said(&refused).contains("act 2 (drop-displacements): surface 1 has no displacements"),
+        "{}",
+        said(&refused)
+    );
+}

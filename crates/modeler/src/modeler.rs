@@ -159,7 +159,7 @@ impl Modeler {
             self.restore(grab.before);
         }
         if let Some(pull) = self.pull.take() {
-            self.let_displacements_be(pull.before);
+            self.restore(pull.before);
         }
         self.displacer.forget();
         fresh.continue_revisions(&self.model);
@@ -288,7 +288,7 @@ impl Modeler {
 
     fn put_back(&mut self) -> Result<Outcome, ModelError> {
         if let Some(pull) = self.pull.take() {
-            self.let_displacements_be(pull.before);
+            self.restore(pull.before);
             return Ok(Outcome::default());
         }
         let grab = self.grab.take().ok_or(ModelError::NothingHeld)?;

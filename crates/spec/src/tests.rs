@@ -248,3 +248,73 @@ fn a_normal_or_ribbon_given_twice_is_refused() {
         assert!(from_text(&twice).unwrap_err().to_string().contains("defined twice"));
     }
 }
+
+#[test]
+fn displacements_are_written_without_what_is_usual_and_come_round() {
+    let mut document = sample();
+    let plain = to_compact_text(&document);
+    let mut displaced = Displaced::default();
+    displaced.items.push(Displacement::new(DVec3::X, DVec3::Z));
+    document.displacements.insert(SurfaceId(2), displaced);
+    let text = to_compact_text(&document);
+    let added = r#","displacements":{"2":{"items":[{"foot":{"at":[1.0,0.0,0.0]},"by":[0.0,0.0,1.0]}]}}"#;
+    assert_eq!(text, format!("{}{added}}}", plain.strip_suffix('}').unwrap()));
+    let displaced = document.displacements.get_mut(&SurfaceId(2)).unwrap();
+    displaced.items.push(Displacement {
+        foot: Foot::All(vec![DVec3::Y, DVec3::Z]),
+        by: DVec3::X,
+        range: -0.5,
+        direction: Some(Stretch { along: DVec3::Y, times: 3.0 }),
+    });
+    displaced.items.push(Displacement { foot: Foot::Along(CurveId(4)), ..displaced.items[0].clone() });
+    displaced.blending = Blending {
+        profile: Profile::Harmonic,
+        combination: Combination::Plain,
+        blend: Blend::Bump(2.0),
+        pins: vec![Hold::Around { at: DVec3::ONE, radius: 0.25 }, Hold::Curve(CurveId(4))],
+    };
+    assert_eq!(from_text(&to_text(&document)), Ok(document.clone()));
+    assert!(to_compact_text(&document).contains(r#""foot":{"along":4}"#));
+}
+
+#[test]
+fn displacements_that_cannot_be_are_refused_with_their_number() {
+    let with = |change: &dyn Fn(&mut Displaced)| {
+        let mut document = sample();
+        let mut displaced = Displaced::default();
+        displaced.items.push(Displacement::new(DVec3::X, DVec3::Z));
+        change(&mut displaced);
+        document.displacements.insert(SurfaceId(2), displaced);
+        document.validate()
+    };
+    assert_eq!(with(&|_| {}), Ok(()));
+    let item =
+        |change: &dyn Fn(&mut Displacement)| with(&|displaced| change(&mut displaced.items[0])).unwrap_err();
+    for range in [f64::NAN, 1.0, f64::INFINITY, -21.0] {
+        let refused = item(&|item| item.range = range);
+        assert!(matches!(refused, Defect::Displacement { number: 1, .. }), "{refused}");
+    }
+    for (along, times) in [(DVec3::ZERO, 2.0), (DVec3::X, 0.0), (DVec3::X, f64::NAN), (DVec3::X, 65.0)] {
+        let refused = item(&|item| item.direction = Some(Stretch { along, times }));
+        assert!(matches!(refused, Defect::Displacement { number: 1, .. }), "{refused}");
+    }
+    assert!(matches!(item(&|item| item.foot = Foot::All(Vec::new())), Defect::Displacement { .. }));
+    assert!(matches!(item(&|item| item.by.x = 2e6), Defect::Coordinate { .. }));
+    assert!(matches!(item(&|item| item.foot = Foot::At(DVec3::NAN)), Defect::Coordinate { .. }));
+    let curve = CurveId(5);
+    let refused = item(&|item| item.foot = Foot::Along(curve));
+    assert_eq!(refused, Defect::DisplacedCurve { surface: SurfaceId(2), curve });
+    for blend in [Blend::Bump(0.0), Blend::Bump(101.0), Blend::Eta(0.5), Blend::Eta(f64::NAN)] {
+        let refused = with(&|displaced| displaced.blending.blend = blend).unwrap_err();
+        assert!(matches!(refused, Defect::Blending { .. }), "{refused}");
+    }
+    let radius = with(&|displaced| {
+        displaced.blending.pins.push(Hold::Around { at: DVec3::X, radius: -1.0 });
+    });
+    assert!(matches!(radius, Err(Defect::Blending { .. })));
+    let many = with(&|displaced| displaced.items[0].foot = Foot::All(vec![DVec3::X; MOST_FEET + 1]));
+    assert!(matches!(many, Err(Defect::TooMany { limit: MOST_FEET, .. })));
+    let mut document = sample();
+    document.displacements.insert(SurfaceId(9), Displaced::default());
+    assert_eq!(document.validate(), Err(Defect::NothingToDisplace(SurfaceId(9))));
+}

@@ -75,20 +75,14 @@ impl Modeler {
                 Ok(Outcome { committed: Some(act.to_owned()), ..Outcome::default() })
             }
             Ok(_) => {
-                self.let_displacements_be(pull.before);
+                self.restore(pull.before);
                 Ok(Outcome::default())
             }
             Err(error) => {
-                self.let_displacements_be(pull.before);
+                self.restore(pull.before);
                 Err(error)
             }
         }
-    }
-
-    /// Puts the document back to what it was before the drag of a foot. Shapes below have gone on meanwhile, and stay.
-    pub(super) fn let_displacements_be(&mut self, before: Model) {
-        self.model.document = before.document;
-        self.relaxer.wake();
     }
 
     /// A drag of a control is over: feet stay where the surface carried them.
