@@ -19,6 +19,7 @@ use core::fmt::Write as _;
 use glam::DVec3;
 use thiserror::Error;
 
+use super::Polygons;
 use crate::{BuildError, Mesh};
 
 /// What is wrong with an OBJ text. Lines are counted from 1.
@@ -108,15 +109,6 @@ pub fn write(mesh: &Mesh, positions: &[DVec3], normals: Option<&[DVec3]>) -> Str
         };
     }
     text
-}
-
-/// The positions and polygons of an OBJ text, as they stand.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Polygons {
-    /// All positions, used or not.
-    pub positions: Vec<DVec3>,
-    /// The corners of the faces, in order of the file.
-    pub faces: Vec<Vec<u32>>,
 }
 
 /// Reads positions and faces. Texture coordinates, normals, groups and materials are passed over; polygons
