@@ -60,6 +60,22 @@ pub enum EditError {
     Cage(#[from] CageError),
 }
 
+impl EditError {
+    /// The same with its vertices named as whoever gave the cage names them.
+    #[must_use]
+    pub fn renamed(mut self, name: impl Fn(u32) -> u32) -> Self {
+        match &mut self {
+            Self::NoSuchVertex { vertex, .. } | Self::NoCorner { vertex, .. } => *vertex = name(*vertex),
+            Self::NoSuchEdge(from, to) | Self::Neighbours { from, to, .. } => {
+                (*from, *to) = (name(*from), name(*to));
+            }
+            Self::Cage(error) => *error = error.renamed(name),
+            Self::NoSuchFace { .. } | Self::NoNormal(_) | Self::Place(_) => {}
+        }
+        self
+    }
+}
+
 /// Moves vertices to new positions.
 ///
 /// # Errors

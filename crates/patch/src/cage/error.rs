@@ -149,3 +149,41 @@ pub enum CageError {
     #[error("the tessellation would need {0} numbers: choose a lower resolution")]
     TooLarge(usize),
 }
+
+impl CageError {
+    /// The same with its vertices named as whoever gave the cage names them.
+    #[must_use]
+    pub fn renamed(mut self, name: impl Fn(u32) -> u32) -> Self {
+        match &mut self {
+            Self::Position { vertex }
+            | Self::NoSuchVertex { vertex, .. }
+            | Self::RepeatedVertex { vertex, .. }
+            | Self::TwoFans { vertex }
+            | Self::TooFewFaces { vertex, .. }
+            | Self::TooManyFaces { vertex, .. } => *vertex = name(*vertex),
+            Self::ManyFacesAtEdge { from, to, .. } | Self::Winding { from, to, .. } => {
+                (*from, *to) = (name(*from), name(*to));
+            }
+            _ => {}
+        }
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    #[test]
+    fn vertices_are_named_as_their_owner_names_them() {
+        let name = |vertex: u32| 10 * vertex;
+        let winding = CageError::Winding { first: 1, second: 2, from: 3, to: 4 };
+        let says = "faces 1 and 2 run in the same direction along the edge 30-40";
+        assert_eq!(winding.renamed(name).to_string(), says);
+        let fans = CageError::TwoFans { vertex: 7 };
+        assert_eq!(fans.renamed(name), CageError::TwoFans { vertex: 70 });
+        assert_eq!(CageError::Resolution(7).renamed(name), CageError::Resolution(7));
+    }
+}

@@ -29,6 +29,11 @@ impl Pattern {
     pub(super) fn weights(&self, pair: usize) -> &[[f64x2; 3]] {
         &self.weights[pair * self.slots..(pair + 1) * self.slots]
     }
+
+    /// How many numbers the table has.
+    pub(super) fn number_count(&self) -> usize {
+        3 * LANES * self.weights.len()
+    }
 }
 
 /// Value and first derivatives.

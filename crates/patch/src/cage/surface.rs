@@ -15,6 +15,7 @@ use super::split::{self, Split};
 use crate::jet::Jet;
 use crate::surface_point::{self, unit_normal};
 use glam::DVec3;
+use std::sync::Arc;
 
 /// How the surface is built over its cage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -46,17 +47,17 @@ pub struct SurfacePoint {
     pub curvatures: Option<[f64; 2]>,
 }
 
-/// A surface over a cage. Its cage may be moved; another connectivity needs a new surface.
+/// A surface over a cage. Its cage may be moved; another connectivity needs a new surface. Clones share the connectivity.
 #[derive(Clone, Debug)]
 pub struct CageSurface {
     settings: Settings,
-    cage: Links,
+    cage: Arc<Links>,
     /// Connectivity of the quads; half-edge `4q + i` is corner `i` of quad `q`.
-    pub(super) links: Links,
-    quads: Vec<[u32; 4]>,
+    pub(super) links: Arc<Links>,
+    quads: Arc<[[u32; 4]]>,
     first_quad: Vec<u32>,
     positions: Vec<DVec3>,
-    rings: Vec<Ring>,
+    rings: Arc<[Ring]>,
     /// Which quad of its vertex's fan each half-edge is in.
     place_in_fan: Vec<u32>,
     blender: Blender,
@@ -98,8 +99,8 @@ impl CageSurface {
                 place_in_fan[h] = place;
             }
         }
-        let rings = rings(&links, settings.boundary);
-        let cage = own.clone();
+        let rings = rings(&links, settings.boundary).into();
+        let (cage, links, quads) = (Arc::new(own.clone()), Arc::new(links), quads.into());
         Ok(Self { settings, cage, links, quads, first_quad, positions, rings, place_in_fan, blender })
     }
 

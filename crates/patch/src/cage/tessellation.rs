@@ -14,6 +14,7 @@ use super::links::name;
 use super::pattern::{LANES, Pattern, Tables};
 use super::surface::CageSurface;
 use glam::DVec3;
+use std::sync::Arc;
 use wide::f64x2;
 
 /// Most samples of a tessellation.
@@ -29,9 +30,9 @@ struct Run {
     count: u32,
 }
 
-/// A triangulated surface over a cage, with its normals, that follows the cage.
-#[derive(Clone, Debug)]
-pub struct Tessellation {
+/// What a tessellation keeps as long as its cage has the same faces; clones share it.
+#[derive(Debug)]
+struct Fixed {
     resolution: usize,
     patterns: Vec<Pattern>,
     /// For each quad its pattern.
@@ -46,6 +47,12 @@ pub struct Tessellation {
     first_user: Vec<u32>,
     users: Vec<u32>,
     triangles: Vec<[u32; 3]>,
+}
+
+/// A triangulated surface over a cage, with its normals, that follows the cage. Clones share the tables.
+#[derive(Clone, Debug)]
+pub struct Tessellation {
+    fixed: Arc<Fixed>,
     positions: Vec<DVec3>,
     normals: Vec<DVec3>,
     /// Batch in which each quad was last evaluated.
@@ -78,10 +85,10 @@ impl Tessellation {
         let layout = Layout::new(surface, resolution);
         let (first_run, runs) = layout.runs(surface);
         let triangles = layout.triangles(surface);
-        let mut tessellation = Self {
+        let stamp = vec![0; pattern_of.len()];
+        let fixed = Fixed {
             resolution,
             patterns: tables.into_patterns(),
-            stamp: vec![0; pattern_of.len()],
             pattern_of,
             first_slot,
             slots,
@@ -90,10 +97,9 @@ impl Tessellation {
             first_user,
             users,
             triangles,
-            positions: vec![DVec3::ZERO; layout.count],
-            normals: vec![DVec3::ZERO; layout.count],
-            batch: 0,
         };
+        let [positions, normals] = [(); 2].map(|()| vec![DVec3::ZERO; layout.count]);
+        let mut tessellation = Self { fixed: Arc::new(fixed), positions, normals, stamp, batch: 0 };
         tessellation.evaluate(surface.positions());
         Ok(tessellation)
     }
@@ -101,7 +107,18 @@ impl Tessellation {
     /// Steps along every edge.
     #[must_use]
     pub fn resolution(&self) -> usize {
-        self.resolution
+        self.fixed.resolution
+    }
+
+    /// Rough size in memory of the tables that clones share, and of the rest, in bytes.
+    #[must_use]
+    pub fn bytes(&self) -> (usize, usize) {
+        let numbers: usize = self.fixed.patterns.iter().map(Pattern::number_count).sum();
+        let names = self.fixed.slots.len() + self.fixed.users.len() + 3 * self.fixed.triangles.len();
+        (
+            8 * numbers + 4 * names + 12 * self.fixed.runs.len(),
+            48 * self.positions.len() + 4 * self.stamp.len(),
+        )
     }
 
     /// Positions of all samples.
@@ -119,7 +136,7 @@ impl Tessellation {
     /// Triangles, counter-clockwise as the faces of the cage are.
     #[must_use]
     pub fn triangles(&self) -> &[[u32; 3]] {
-        &self.triangles
+        &self.fixed.triangles
     }
 
     /// Evaluates all samples from the positions of the vertices of the quads ([`CageSurface::positions`]).
@@ -127,9 +144,10 @@ impl Tessellation {
     /// # Panics
     /// When there are not as many positions as the surface had.
     pub fn evaluate(&mut self, vertices: &[DVec3]) {
-        assert_eq!(vertices.len() + 1, self.first_user.len(), "one position for each vertex of the quads");
-        for quad in 0..self.pattern_of.len() {
-            self.evaluate_quad(quad, vertices);
+        let fixed = Arc::clone(&self.fixed);
+        assert_eq!(vertices.len() + 1, fixed.first_user.len(), "one position for each vertex of the quads");
+        for quad in 0..fixed.pattern_of.len() {
+            self.evaluate_quad(&fixed, quad, vertices);
         }
     }
 
@@ -138,26 +156,27 @@ impl Tessellation {
     /// # Panics
     /// As [`Self::evaluate`], and for a vertex that does not exist.
     pub fn update(&mut self, vertices: &[DVec3], moved: &[u32]) -> usize {
-        assert_eq!(vertices.len() + 1, self.first_user.len(), "one position for each vertex of the quads");
+        let fixed = Arc::clone(&self.fixed);
+        assert_eq!(vertices.len() + 1, fixed.first_user.len(), "one position for each vertex of the quads");
         self.batch = self.batch.wrapping_add(1);
         let mut evaluated = 0;
         for &vertex in moved {
             let vertex = vertex as usize;
-            for user in self.first_user[vertex]..self.first_user[vertex + 1] {
-                let quad = self.users[user as usize] as usize;
+            for user in fixed.first_user[vertex]..fixed.first_user[vertex + 1] {
+                let quad = fixed.users[user as usize] as usize;
                 if self.stamp[quad] != self.batch {
                     self.stamp[quad] = self.batch;
-                    evaluated += self.evaluate_quad(quad, vertices);
+                    evaluated += self.evaluate_quad(&fixed, quad, vertices);
                 }
             }
         }
         evaluated
     }
 
-    fn evaluate_quad(&mut self, quad: usize, vertices: &[DVec3]) -> usize {
-        let pattern = &self.patterns[self.pattern_of[quad] as usize];
-        let slots = &self.slots[self.first_slot[quad] as usize..self.first_slot[quad + 1] as usize];
-        let runs = &self.runs[self.first_run[quad] as usize..self.first_run[quad + 1] as usize];
+    fn evaluate_quad(&mut self, fixed: &Fixed, quad: usize, vertices: &[DVec3]) -> usize {
+        let pattern = &fixed.patterns[fixed.pattern_of[quad] as usize];
+        let slots = &fixed.slots[fixed.first_slot[quad] as usize..fixed.first_slot[quad + 1] as usize];
+        let runs = &fixed.runs[fixed.first_run[quad] as usize..fixed.first_run[quad + 1] as usize];
         let mut evaluated = 0;
         for run in runs {
             let (from, count) = (run.sample as usize, run.count as usize);

@@ -85,9 +85,9 @@ fn the_result_is_watertight() {
 #[test]
 fn quads_that_look_alike_share_a_table() {
     let torus = surface(&primitive::torus(3.0, 1.0, 12, 8).unwrap(), Map::Smooth, Blend::default());
-    assert_eq!(Tessellation::new(&torus, 4).unwrap().patterns.len(), 1);
+    assert_eq!(Tessellation::new(&torus, 4).unwrap().fixed.patterns.len(), 1);
     let grid = surface(&primitive::grid(1.0, 9, 9).unwrap(), Map::Smooth, Blend::default());
-    assert!(Tessellation::new(&grid, 4).unwrap().patterns.len() <= 25);
+    assert!(Tessellation::new(&grid, 4).unwrap().fixed.patterns.len() <= 25);
 }
 
 #[test]
