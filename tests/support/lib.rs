@@ -144,13 +144,12 @@ pub fn bits_after(example: Example, steps: u32) -> u32 {
     }
     let mut hasher = crc32fast::Hasher::new();
     let model = bench.modeler.model();
+    let mut add = |at: DVec3| at.to_array().iter().for_each(|x| hasher.update(&x.to_bits().to_le_bytes()));
     for shape in model.surfaces.values() {
-        for v in shape.mesh.vertices() {
-            shape.positions[v.index()]
-                .to_array()
-                .iter()
-                .for_each(|x| hasher.update(&x.to_bits().to_le_bytes()));
-        }
+        shape.mesh.vertices().for_each(|v| add(shape.positions[v.index()]));
+    }
+    for shape in model.patches.values() {
+        shape.positions().iter().chain(shape.normals()).for_each(|at| add(*at));
     }
     for node in model.curves.values().flat_map(|c| &c.nodes) {
         node.to_array().iter().for_each(|x| hasher.update(&x.to_bits().to_le_bytes()));

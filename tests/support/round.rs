@@ -47,7 +47,9 @@ impl Round {
                 follows(&self.bench);
                 None
             }
-            Request::Edit(_) | Request::Undo | Request::Redo | Request::Grab(_) if self.held.is_some() => {
+            Request::Edit(_) | Request::Import { .. } | Request::Undo | Request::Redo | Request::Grab(_)
+                if self.held.is_some() =>
+            {
                 let reply = self.bench.send(request.clone());
                 assert!(reply.refused.is_some(), "{request:?} in the middle of a drag");
                 self.is_as(&before);
@@ -84,7 +86,11 @@ impl Round {
                 self.is_as(&before);
                 reply.refused.map(|refusal| refusal.reason)
             }
-            Request::OpenText { .. } | Request::OpenLink { .. } | Request::OpenExample(_) | Request::New => {
+            Request::OpenText { .. }
+            | Request::OpenLink { .. }
+            | Request::OpenExample(_)
+            | Request::Import { .. }
+            | Request::New => {
                 let reply = self.bench.send(request.clone());
                 match reply.refused {
                     None => {
@@ -263,6 +269,7 @@ fn leaves_nothing_lying(before: &Model, after: &Model, edit: &Edit) {
     let unused = |model: &Model, point: PointId| {
         model.document.curves_through(point).next().is_none()
             && model.document.surfaces_through(point).next().is_none()
+            && model.document.cages_on(point).next().is_none()
     };
     let is_meant = matches!(edit, Edit::Point { .. });
     for point in after.document.points.keys() {

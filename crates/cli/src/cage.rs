@@ -4,8 +4,9 @@ mod samples;
 
 use crate::input::{self, CliError};
 use crate::verify::rules;
-use ductile_mesh::io::obj;
+use ductile_mesh::io::{Polygons, obj, ply};
 use ductile_patch::cage::{Blend, Boundary, Cage, CageSurface, Map, Settings, Split, Tessellation};
+use ductile_spec::ImportFormat;
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -14,7 +15,7 @@ use std::process::ExitCode;
 /// Options of `cage`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Options {
-    /// OBJ file with the polygons of the cage, or - for standard input
+    /// OBJ or PLY file with the polygons of the cage, or - for an OBJ text on standard input
     cage: PathBuf,
     /// OBJ file to write, or - for standard output
     #[arg(short, long, value_name = "OUT.obj", required_unless_present = "samples")]
@@ -135,9 +136,11 @@ fn refused(file: &Path, reason: &dyn std::fmt::Display) -> CliError {
 }
 
 fn read(file: &Path) -> Result<Cage, CliError> {
-    let text = input::read_up_to(file, MOST_BYTES)?;
-    let obj::Polygons { positions, faces } =
-        obj::read_polygons(&text).map_err(|error| refused(file, &error))?;
+    let Polygons { positions, faces } = if input::import_format(file) == Some(ImportFormat::Ply) {
+        ply::read_polygons(&input::bytes_up_to(file, MOST_BYTES)?).map_err(|error| refused(file, &error))?
+    } else {
+        obj::read_polygons(&input::read_up_to(file, MOST_BYTES)?).map_err(|error| refused(file, &error))?
+    };
     Cage::new(positions, faces).map_err(|error| refused(file, &error))
 }
 

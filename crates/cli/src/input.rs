@@ -1,6 +1,6 @@
 //! Files in and out, with errors that name the file.
 
-use ductile_spec::{Document, MAX_TEXT_BYTES, TextError, from_text};
+use ductile_spec::{Document, ImportFormat, MAX_TEXT_BYTES, TextError, from_text};
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -56,6 +56,13 @@ pub(crate) fn read(file: &Path) -> Result<String, CliError> {
 /// The text of a file, or of standard input for `-`, of at most that many bytes.
 pub(crate) fn read_up_to(file: &Path, most_bytes: usize) -> Result<String, CliError> {
     let fail = |reason| CliError::Read { file: file.to_owned(), reason };
+    String::from_utf8(bytes_up_to(file, most_bytes)?)
+        .map_err(|_| fail(std::io::Error::new(std::io::ErrorKind::InvalidData, "not UTF-8 text")))
+}
+
+/// What is in a file, or on standard input for `-`, at most that many bytes.
+pub(crate) fn bytes_up_to(file: &Path, most_bytes: usize) -> Result<Vec<u8>, CliError> {
+    let fail = |reason| CliError::Read { file: file.to_owned(), reason };
     let limit = most_bytes as u64 + 1;
     let mut bytes = Vec::new();
     if file.as_os_str() == "-" {
@@ -67,8 +74,12 @@ pub(crate) fn read_up_to(file: &Path, most_bytes: usize) -> Result<String, CliEr
         let reason = format!("the file is longer than {most_bytes} bytes");
         return Err(CliError::Refused { file: file.to_owned(), reason });
     }
-    String::from_utf8(bytes)
-        .map_err(|_| fail(std::io::Error::new(std::io::ErrorKind::InvalidData, "not UTF-8 text")))
+    Ok(bytes)
+}
+
+/// The format of a mesh file, by the ending of its name.
+pub(crate) fn import_format(file: &Path) -> Option<ImportFormat> {
+    file.to_str().and_then(ImportFormat::of_name)
 }
 
 /// The document in a file.

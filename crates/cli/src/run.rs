@@ -4,7 +4,9 @@ use crate::input::{self, CliError};
 use crate::script::{self, Entry};
 use crate::solve::{SurfaceReport, surface_reports};
 use ductile_modeler::Modeler;
-use ductile_spec::{Document, ExportFormat, FrameHeader, Reply, Request, Step, Structure, to_text};
+use ductile_spec::{
+    Document, ExportFormat, FrameHeader, MAX_TEXT_BYTES, Reply, Request, Step, Structure, to_text,
+};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -15,7 +17,7 @@ use std::process::ExitCode;
 pub(crate) struct Options {
     /// Script file: a JSON list of acts, or - for standard input
     script: PathBuf,
-    /// Spec file to begin with, instead of an empty document
+    /// Spec file to begin with, or a cage as an OBJ or PLY file, instead of an empty document
     #[arg(long, value_name = "SPEC")]
     from: Option<PathBuf>,
     /// Spec file to write, or - for standard output
@@ -80,7 +82,7 @@ impl Things {
         Self {
             points: missing(&one.points, &other.points, |id| id.0),
             curves: missing(&one.curves, &other.curves, |id| id.0),
-            surfaces: missing(&one.surfaces, &other.surfaces, |id| id.0),
+            surfaces: missing_surfaces(one, other),
         }
     }
 }
@@ -91,6 +93,18 @@ fn missing<K: Ord, V, W>(
     number: impl Fn(&K) -> u32,
 ) -> Vec<u32> {
     one.keys().filter(|id| !other.contains_key(id)).map(number).collect()
+}
+
+fn missing_surfaces(one: &Document, other: &Document) -> Vec<u32> {
+    let all = |document: &Document| -> Vec<u32> {
+        let fair = document.surfaces.keys();
+        let mut all: Vec<u32> =
+            fair.chain(document.cages.keys()).chain(document.fills.keys()).map(|id| id.0).collect();
+        all.sort_unstable();
+        all
+    };
+    let there = all(other);
+    all(one).into_iter().filter(|id| there.binary_search(id).is_err()).collect()
 }
 
 /// A modeler at work on a script.
@@ -154,8 +168,11 @@ pub(crate) fn run(options: &Options) -> Result<ExitCode, CliError> {
     let mut session =
         Session { modeler: Modeler::new(), structure: Structure::default(), frame: FrameHeader::default() };
     if let Some(spec) = &options.from {
-        let (text, _) = input::document(spec)?;
-        session.ask(Request::OpenText { text }).map_err(|reason| refuse(spec, reason))?;
+        let request = match input::import_format(spec) {
+            Some(format) => Request::Import { format, bytes: input::bytes_up_to(spec, MAX_TEXT_BYTES)? },
+            None => Request::OpenText { text: input::document(spec)?.0 },
+        };
+        session.ask(request).map_err(|reason| refuse(spec, reason))?;
     }
     let (acts, failed) = perform(&mut session, &script, options);
     if options.json {

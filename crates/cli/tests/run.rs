@@ -153,3 +153,58 @@ fn a_surface_is_displaced_and_the_document_says_how() {
         said(&refused)
     );
 }
+
+#[test]
+fn a_cage_is_laid_changed_and_written_by_a_script() {
+    let folder = tempfile::tempdir().unwrap();
+    let script = r#"[
+      {"cage": {"from": {"built-in": {"form": "cube", "centre": [0, 0, 0], "size": 1}}}},
+      {"extrude": {"surface": 1, "face": 1, "distance": 1.5}},
+      {"split-edge": {"surface": 1, "ends": [1, 2]}},
+      {"split-face": {"surface": 1, "face": 0}},
+      {"cage-settings": {"surface": 1, "settings": {"split": "offset", "blend": {"hermite": 3}, "resolution": 4}}},
+      {"shift": {"points": [9, 10], "by": [0, 0, 0.25]}},
+      "rest"
+    ]"#;
+    let spec = folder.path().join("tower.ductile.json");
+    let done = run(folder.path(), script, &["-o", spec.to_str().unwrap(), "--json"]);
+    assert!(done.status.success(), "{}", said(&done));
+    let report = json(&done);
+    assert_eq!(report["acts"][0]["made"]["surfaces"], serde_json::json!([1]));
+    assert_eq!(report["acts"][1]["made"], serde_json::json!({"points": [9, 10, 11, 12]}));
+    assert_eq!(
+        (&report["at_rest"], &report["surfaces"][0]["euler_characteristic"]),
+        (&true.into(), &2.into())
+    );
+    let document = ductile_spec::from_text(&std::fs::read_to_string(&spec).unwrap()).unwrap();
+    let cage = &document.cages[&ductile_spec::SurfaceId(1)];
+    assert_eq!(
+        (cage.settings.resolution, cage.settings.split),
+        (Some(4), Some(ductile_spec::CageSplit::Offset))
+    );
+}
+
+#[test]
+fn files_of_polygons_are_begun_with_as_cages() {
+    let folder = tempfile::tempdir().unwrap();
+    let obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0.5\nf 1 2 3 4\n";
+    let ply = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
+               element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0.5\n4 0 1 2 3\n";
+    let made = [("square.obj", obj), ("square.PLY", ply)].map(|(name, text)| {
+        let file = folder.path().join(name);
+        std::fs::write(&file, text).unwrap();
+        let done = run(folder.path(), "[]", &["--from", file.to_str().unwrap(), "-o", "-"]);
+        assert!(done.status.success(), "{}", said(&done));
+        ductile_spec::from_text(&String::from_utf8(done.stdout).unwrap()).unwrap()
+    });
+    assert_eq!((made[0].cages.len(), made[0].points.len()), (1, 4));
+    assert_eq!(made[0], made[1]);
+    let file = folder.path().join("bad.ply");
+    std::fs::write(&file, "solid\n").unwrap();
+    let refused = run(folder.path(), "[]", &["--from", file.to_str().unwrap(), "-o", "-"]);
+    assert!(
+        !refused.status.success() && said(&refused).contains("this is no PLY file"),
+        "{}",
+        said(&refused)
+    );
+}

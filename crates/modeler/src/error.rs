@@ -1,8 +1,10 @@
 //! Why the modeler refuses: typed, with the offending thing in the message, in words for the designer.
 
+use ductile_mesh::io::{obj::ObjError, ply::PlyError};
 use ductile_mesh::{BridgeError, BuildError, GlueError, IntersectError, PathError};
 use ductile_patch::DisplacementError;
 use ductile_patch::cage::CageError;
+use ductile_patch::cage::edit::EditError;
 use ductile_solver::SolverError;
 use ductile_spec::{CurveId, Defect, Document, LinkError, PointId, SurfaceId, SurfaceKind, TextError};
 use thiserror::Error;
@@ -46,6 +48,71 @@ pub enum ModelError {
         /// What is wrong with it.
         reason: CageError,
     },
+    /// What is given, or what a file holds, is no cage.
+    #[error("no cage: {0}")]
+    NoCage(CageError),
+    /// A cage cannot be changed like that.
+    #[error("{surface}: {reason}")]
+    CageEdit {
+        /// Which surface.
+        surface: SurfaceId,
+        /// Why not.
+        reason: EditError,
+    },
+    /// The point is no vertex of the cage.
+    #[error("{point} is no vertex of the cage of {surface}")]
+    NoVertex {
+        /// The surface over the cage.
+        surface: SurfaceId,
+        /// The point.
+        point: PointId,
+    },
+    /// The cage has no such edge.
+    #[error("no edge of the cage of {surface} joins {} and {}", .ends[0], .ends[1])]
+    NoEdge {
+        /// The surface over the cage.
+        surface: SurfaceId,
+        /// The points that it was to join.
+        ends: [PointId; 2],
+    },
+    /// The cage has no such face.
+    #[error("face {face} does not exist: the cage of {surface} has {count}")]
+    NoFace {
+        /// The surface over the cage.
+        surface: SurfaceId,
+        /// The face, from 0.
+        face: u32,
+        /// How many there are.
+        count: usize,
+    },
+    /// The surface has no cage that the act could change.
+    #[error("{surface} is {kind}: {act} works on cages only")]
+    OnlyCages {
+        /// Which surface.
+        surface: SurfaceId,
+        /// What it is.
+        kind: &'static str,
+        /// What was asked for, in the words of the page.
+        act: &'static str,
+    },
+    /// A file is no OBJ file, or holds no polygons.
+    #[error("the OBJ file cannot be read: {0}")]
+    Obj(ObjError),
+    /// A file is no PLY file, or holds no polygons.
+    #[error("the PLY file cannot be read: {0}")]
+    Ply(PlyError),
+    /// A file that should be a text is none.
+    #[error("the OBJ file cannot be read: it is not a text")]
+    NoText,
+    /// A size is not a usable number.
+    #[error("a size must be a positive number up to 1e6")]
+    BadSize,
+    /// A distance is not a usable number.
+    #[error("a distance must be a number between -1e6 and 1e6 that is not 0")]
+    BadDistance,
+    /// No points were named.
+    #[error("there is nothing to move: no points were named")]
+    NothingToShift,
     /// The surface is of another kind than the act can deal with.
     #[error("{surface} is {kind}: {act} works on fair surfaces only")]
     OnlyFair {

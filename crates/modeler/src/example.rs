@@ -1,9 +1,11 @@
 //! The examples: small documents, each of which would fit in a message. Plain ones are written down here. The thesis's
 //! constructions are what scripts of acts give: their documents are kept as text, and `tests/examples.rs` makes them again.
 
+use crate::model::Model;
+use crate::operation::cage::cage;
 use ductile_spec::{
-    Curve, CurveId, Document, Embedding, Example, PointId, Skeleton, SkeletonVertex, Surface, SurfaceId,
-    from_text,
+    CageForm, CageSource, Curve, CurveId, Document, Embedding, Example, PointId, Skeleton, SkeletonVertex,
+    Surface, SurfaceId, from_text,
 };
 use glam::{DVec3, dvec3};
 
@@ -25,6 +27,9 @@ pub fn example(example: Example) -> Document {
         Example::ThreeHandles => built(include_str!("example/three-handles.ductile.json")),
         Example::MoebiusStrip => built(include_str!("example/moebius-strip.ductile.json")),
         Example::Spout => built(include_str!("example/spout.ductile.json")),
+        Example::TorusCage => caged(CageForm::Torus),
+        Example::Trebol => caged(CageForm::Trebol),
+        Example::Icosahedron => caged(CageForm::Icosahedron),
     };
     example.title().clone_into(&mut document.name);
     document
@@ -33,6 +38,14 @@ pub fn example(example: Example) -> Document {
 /// What a script gave.
 fn built(text: &str) -> Document {
     from_text(text).expect("the texts are part of the program, and a test reads each of them")
+}
+
+/// What the act of that name lays into an empty document.
+fn caged(form: CageForm) -> Document {
+    let mut model = Model::default();
+    let from = CageSource::BuiltIn { form, centre: DVec3::ZERO, size: 1.0 };
+    cage(&mut model, &from).expect("a cage of size 1 fits any document, and a test makes each of them");
+    Document::clone(&model.document)
 }
 
 /// Four points on the unit circle, on the diagonals; 0.7071 keeps the link short.

@@ -8,6 +8,7 @@
 use crate::error::ModelError;
 use crate::model::Model;
 use crate::operation::{insert, kept_position, pin};
+use crate::patch::caged;
 use crate::relax::Relaxer;
 use ductile_spec::{GrabTarget, Handle, MAX_COORDINATE, PointId};
 use glam::DVec3;
@@ -35,6 +36,9 @@ pub(crate) struct Grab {
     pub(crate) point: PointId,
     /// The direction there that is held, if it is not the point itself.
     handle: Option<Handle>,
+    /// All points that go with the hand and where they were, if it holds an edge or a face; the hand took hold at `anchor`.
+    group: Vec<(PointId, DVec3)>,
+    anchor: DVec3,
     /// Whether the grab made it.
     pub(crate) is_new: bool,
     /// Whether the hand has moved it yet.
@@ -62,12 +66,16 @@ impl Grab {
     ) -> Result<Self, ModelError> {
         let before = model.clone();
         let (centre, radius) = model.document.extent();
+        let (group, anchor) = group(model, &target)?;
         let point = match target {
             GrabTarget::Point(point) => model.point(point).map(|_| point)?,
             GrabTarget::Curve { curve, at } => insert(model, curve, at)?,
             GrabTarget::Surface { surface, at } => pin(model, relaxer, surface, at)?,
             // A foot is no control point: `Pull` drags it.
             GrabTarget::Displace { .. } | GrabTarget::Foot { .. } => return Err(ModelError::NothingHeld),
+            GrabTarget::Edge { .. } | GrabTarget::Face { .. } => {
+                group.first().map(|(point, _)| *point).ok_or(ModelError::NothingHeld)?
+            }
             GrabTarget::Handle(Handle::Tangent { curve, point }) => {
                 let through = model.document.curves.get(&curve).map(|curve| &curve.through);
                 let is_on = through.ok_or(ModelError::NoCurve(curve))?.contains(&point);
@@ -83,6 +91,8 @@ impl Grab {
         Ok(Self {
             point,
             handle,
+            group,
+            anchor,
             is_new,
             has_moved: false,
             before,
@@ -94,6 +104,12 @@ impl Grab {
             centre,
             reach,
         })
+    }
+
+    /// Where the hand is that took hold.
+    pub(crate) fn hand(&self, model: &Model) -> DVec3 {
+        let point = model.document.points.get(&self.point).copied();
+        if self.group.is_empty() { point.unwrap_or(DVec3::ZERO) } else { self.anchor }
     }
 
     /// A hand that shakes a surface hard enough crumples it, and a crumpled surface may stay so: its energy has other
@@ -143,10 +159,23 @@ impl Grab {
         if let Some(handle) = self.handle {
             return self.turn(model, handle, to);
         }
-        let to = to.clamp(DVec3::splat(-MAX_COORDINATE), DVec3::splat(MAX_COORDINATE));
-        let at = model.document_mut().points.get_mut(&self.point)?;
-        let moved = (to - *at).length();
-        *at = to;
+        let kept = |to: DVec3| to.clamp(DVec3::splat(-MAX_COORDINATE), DVec3::splat(MAX_COORDINATE));
+        let moved = if self.group.is_empty() {
+            let at = model.document_mut().points.get_mut(&self.point)?;
+            let to = kept(to);
+            let moved = (to - *at).length();
+            *at = to;
+            moved
+        } else {
+            let mut most = 0.0_f64;
+            for (point, home) in &self.group {
+                let at = model.document_mut().points.get_mut(point)?;
+                let to = kept(*home + (to - self.anchor));
+                most = most.max((to - *at).length());
+                *at = to;
+            }
+            most
+        };
         self.has_moved |= moved > 0.0;
         if moved > 0.0 {
             (self.still, self.is_home_again) = (0, false);
@@ -176,12 +205,40 @@ impl Grab {
             model.document.validate()?;
             return Ok("Tangent");
         }
-        let at = model.point(self.point)?;
-        let kept = kept_position(&self.before, at)?;
-        model.document_mut().points.insert(self.point, kept);
+        let one = [(self.point, DVec3::ZERO)];
+        for (point, _) in if self.group.is_empty() { &one[..] } else { &self.group } {
+            let kept = kept_position(&self.before, model.point(*point)?)?;
+            model.document_mut().points.insert(*point, kept);
+        }
         model.check_extents()?;
         Ok(if self.is_new { "Control point" } else { "Move" })
     }
+}
+
+/// The corners of an edge or a face of a cage with their places, and where the hand takes hold of it; no corners for other
+/// targets.
+fn group(model: &Model, target: &GrabTarget) -> Result<(Vec<(PointId, DVec3)>, DVec3), ModelError> {
+    let (points, at) = match target {
+        GrabTarget::Edge { surface, ends, at } => {
+            let cage = caged(&model.document, *surface, "Dragging an edge")?;
+            let [a, b] = *ends;
+            if !cage.edges().contains(&[a.min(b), a.max(b)]) {
+                return Err(ModelError::NoEdge { surface: *surface, ends: *ends });
+            }
+            (ends.to_vec(), *at)
+        }
+        GrabTarget::Face { surface, face, at } => {
+            let faces = &caged(&model.document, *surface, "Dragging a face")?.faces;
+            let no_face = ModelError::NoFace { surface: *surface, face: *face, count: faces.len() };
+            (faces.get(*face as usize).ok_or(no_face)?.clone(), *at)
+        }
+        _ => return Ok((Vec::new(), DVec3::ZERO)),
+    };
+    if !at.to_array().iter().all(|x| x.is_finite() && x.abs() <= MAX_COORDINATE) {
+        return Err(ModelError::BadPosition);
+    }
+    let place = |point: PointId| Ok((point, model.point(point)?));
+    Ok((points.into_iter().map(place).collect::<Result<_, ModelError>>()?, at))
 }
 
 /// The direction that a document prescribes, as far as it does.

@@ -19,7 +19,6 @@ use ductile_spec::{
     Committed, Document, Edit, ExportFormat, Exported, FrameHeader, GrabTarget, Grabbed, Meeting, Pulled,
     Refusal, Reply, Request, Resume, Step, SurfaceId, from_fragment, from_text, to_compact_text,
 };
-use glam::DVec3;
 
 /// The modeler behind the page, the command line and the tests.
 ///
@@ -126,6 +125,9 @@ impl Modeler {
         match request {
             Request::OpenText { text } => self.open("Open", from_text(&text)?),
             Request::OpenLink { link } => self.open("Open link", from_fragment(&link)?),
+            Request::Import { format, bytes } => {
+                self.whole("Import", |modeler, _| operation::import(&mut modeler.model, format, &bytes))
+            }
             Request::OpenExample(kind) => self.open(kind.title(), example(kind)),
             Request::New => self.open("New", Document::default()),
             Request::Resume(resume) => self.resume(&resume),
@@ -192,15 +194,24 @@ impl Modeler {
     }
 
     fn edit(&mut self, edit: &Edit) -> Result<Outcome, ModelError> {
+        self.whole(edit.label(), |modeler, before| modeler.act(edit, before))
+    }
+
+    /// Does something whole, as a step of undo, or leaves the model as it was.
+    fn whole(
+        &mut self,
+        name: &str,
+        act: impl FnOnce(&mut Self, &Model) -> Result<(), ModelError>,
+    ) -> Result<Outcome, ModelError> {
         if self.is_holding() {
             return Err(ModelError::Dragging);
         }
         let before = self.model.clone();
-        match self.act(edit, &before) {
+        match act(self, &before) {
             Ok(()) => {
-                self.history.record(edit.label(), before);
+                self.history.record(name, before);
                 self.relaxer.wake();
-                Ok(Outcome { committed: Some(edit.label().to_owned()), ..Outcome::default() })
+                Ok(Outcome { committed: Some(name.to_owned()), ..Outcome::default() })
             }
             Err(error) => {
                 self.restore(before);
@@ -220,7 +231,7 @@ impl Modeler {
         let target = self.displacer.target_on_base(target);
         match Grab::begin(&mut self.model, &self.relaxer, target) {
             Ok(grab) => {
-                let at = self.model.point(grab.point).unwrap_or(DVec3::ZERO);
+                let at = grab.hand(&self.model);
                 let grabbed = Grabbed { point: grab.point, at };
                 self.grab = Some(grab);
                 self.footprints = self.displacer.footprints();
@@ -392,6 +403,7 @@ fn label(request: &Request) -> &'static str {
     match request {
         Request::OpenText { .. } => "Open",
         Request::OpenLink { .. } => "Open link",
+        Request::Import { .. } => "Import",
         Request::OpenExample(kind) => kind.title(),
         Request::New => "New",
         Request::Resume(_) => "Resume",

@@ -1,6 +1,8 @@
 //! The acts of a designer. One word = one variant = one file in the modeler's `operation/` = one word of
 //! the command line = one label on the page.
 
+use crate::cage::CageSettings;
+use crate::cage_source::CageSource;
 use crate::displacement::{Blending, Displacement};
 use crate::document::{Density, Objective};
 use crate::id::{CurveId, PointId, SurfaceId};
@@ -246,6 +248,61 @@ pub enum Edit {
         /// The choice.
         blending: Blending,
     },
+    /// Lays a surface over a cage. The vertices of the cage become control points.
+    Cage {
+        /// Which cage.
+        from: CageSource,
+    },
+    /// Chooses how a surface over a cage is made.
+    CageSettings {
+        /// Which surface.
+        surface: SurfaceId,
+        /// How.
+        settings: CageSettings,
+    },
+    /// Moves a face of a cage out along its normal, with a wall of quads around it.
+    Extrude {
+        /// The surface over the cage.
+        surface: SurfaceId,
+        /// Which face of the cage, from 0; it keeps its number.
+        face: u32,
+        /// How far, in model units; negative is inwards.
+        distance: f64,
+    },
+    /// Takes a face out of a cage, which leaves a hole. Later faces move up by one.
+    DeleteFace {
+        /// The surface over the cage.
+        surface: SurfaceId,
+        /// Which face of the cage, from 0.
+        face: u32,
+    },
+    /// Puts a new vertex on an edge of a cage and joins it, in each face there, to the corner farthest along the face.
+    SplitEdge {
+        /// The surface over the cage.
+        surface: SurfaceId,
+        /// The ends of the edge.
+        ends: [PointId; 2],
+        /// Where between them, from 0 at the first to 1 at the second.
+        #[serde(default = "middle")]
+        at: f64,
+    },
+    /// Divides a face of a cage: between two of its corners, or into triangles round its centre.
+    SplitFace {
+        /// The surface over the cage.
+        surface: SurfaceId,
+        /// Which face of the cage, from 0.
+        face: u32,
+        /// Two corners that are no neighbours; `None` for the centre.
+        #[serde(default)]
+        between: Option<[PointId; 2]>,
+    },
+    /// Moves several control points by the same way, and everything that hangs on them.
+    Shift {
+        /// Which points.
+        points: Vec<PointId>,
+        /// By how much.
+        by: DVec3,
+    },
     /// Renames the document.
     Rename {
         /// The new name, at most 200 characters.
@@ -259,7 +316,7 @@ impl Edit {
     pub fn label(&self) -> &'static str {
         match self {
             Self::Point { .. } => "Point",
-            Self::Move { .. } => "Move",
+            Self::Move { .. } | Self::Shift { .. } => "Move",
             Self::Curve { .. } => "Curve",
             Self::Sheet { .. } => "Sheet",
             Self::Sweep { .. } => "Sweep",
@@ -288,9 +345,19 @@ impl Edit {
             Self::EraseDisplacement { .. } => "Erase displacement",
             Self::DropDisplacements { .. } => "Drop displacements",
             Self::Blending { .. } => "Blending",
+            Self::Cage { .. } => "Cage",
+            Self::CageSettings { .. } => "Cage settings",
+            Self::Extrude { .. } => "Extrude",
+            Self::DeleteFace { .. } => "Delete face",
+            Self::SplitEdge { .. } => "Split edge",
+            Self::SplitFace { .. } => "Split face",
             Self::Rename { .. } => "Rename",
         }
     }
+}
+
+fn middle() -> f64 {
+    0.5
 }
 
 /// How a surface leaves a curve.
@@ -384,6 +451,24 @@ pub enum GrabTarget {
         surface: SurfaceId,
         /// Which of its displacements, from 1.
         number: usize,
+    },
+    /// An edge of a cage: both ends go with the hand.
+    Edge {
+        /// The surface over the cage.
+        surface: SurfaceId,
+        /// Its ends.
+        ends: [PointId; 2],
+        /// Where the hand is that takes hold of it.
+        at: DVec3,
+    },
+    /// A face of a cage: all corners go with the hand.
+    Face {
+        /// The surface over the cage.
+        surface: SurfaceId,
+        /// Which face of the cage, from 0.
+        face: u32,
+        /// Where the hand is that takes hold of it.
+        at: DVec3,
     },
     /// A direction at a control point. Where the hand is, less the point's place, is the direction.
     Handle(Handle),

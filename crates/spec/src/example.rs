@@ -34,6 +34,12 @@ pub enum Example {
     MoebiusStrip,
     /// A ball and a cylinder, trimmed against each other and joined (thesis figures 3.4 and 3.5).
     Spout,
+    /// A surface over a cage of quads round a hole.
+    TorusCage,
+    /// A surface over a cage of three lobes with a hole through each.
+    Trebol,
+    /// A surface over an icosahedron.
+    Icosahedron,
 }
 
 impl Example {
@@ -53,9 +59,12 @@ impl Example {
         Self::Spout,
     ];
 
+    /// Surfaces over cages.
+    pub const CAGES: [Self; 3] = [Self::TorusCage, Self::Trebol, Self::Icosahedron];
+
     /// All examples, in the order of the menu.
     pub fn all() -> impl Iterator<Item = Self> {
-        Self::PLAIN.into_iter().chain(Self::BUILT)
+        Self::PLAIN.into_iter().chain(Self::BUILT).chain(Self::CAGES)
     }
 
     /// What the menu calls it.
@@ -76,6 +85,9 @@ impl Example {
             Self::ThreeHandles => "Three handles",
             Self::MoebiusStrip => "Möbius strip",
             Self::Spout => "Ball with a spout",
+            Self::TorusCage => "Torus on a cage",
+            Self::Trebol => "Trebol on a cage",
+            Self::Icosahedron => "Icosahedron",
         }
     }
 
@@ -97,6 +109,9 @@ impl Example {
             Self::ThreeHandles => "three-handles",
             Self::MoebiusStrip => "moebius-strip",
             Self::Spout => "spout",
+            Self::TorusCage => "torus-cage",
+            Self::Trebol => "trebol",
+            Self::Icosahedron => "icosahedron",
         }
     }
 }

@@ -5,7 +5,9 @@
 //! command line and file, one user and the next) depend on it and on nothing of each other.
 #![cfg_attr(not(test), warn(clippy::expect_used))]
 
+mod bytes;
 mod cage;
+mod cage_source;
 mod displacement;
 mod document;
 mod edit;
@@ -19,7 +21,11 @@ mod surgery;
 mod text;
 mod validate;
 
-pub use cage::Cage;
+pub use cage::{
+    Cage, CageBlend, CageBoundary, CageMap, CageSettings, CageSplit, MAX_BUMP, MAX_CAGE_RESOLUTION,
+    MAX_HERMITE,
+};
+pub use cage_source::{CageForm, CageSource};
 pub use displacement::{
     Blend, Blending, Combination, Displaced, Displacement, Foot, Hold, LEAST_RANGE, MOST_FEET, MOST_RANGE,
     Profile, Stretch,
@@ -37,8 +43,8 @@ pub use frame::{
 };
 pub use id::{CurveId, PointId, SurfaceId};
 pub use protocol::{
-    Committed, ExportFormat, Exported, Grabbed, Meeting, MeetingLine, Pulled, Refusal, Remembered, Reply,
-    Request, Resume, Step, TRAP,
+    Committed, ExportFormat, Exported, Grabbed, ImportFormat, Meeting, MeetingLine, Pulled, Refusal,
+    Remembered, Reply, Request, Resume, Step, TRAP,
 };
 pub use share::{FRAGMENT_KEY, LinkError, MAX_LINK_BYTES, from_fragment, to_fragment};
 pub use surgery::{Border, Extent, On};

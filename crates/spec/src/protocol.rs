@@ -28,6 +28,14 @@ pub enum Request {
         /// The link.
         link: String,
     },
+    /// Lays a surface over the polygons of a file: an act like any other, beside what is there.
+    Import {
+        /// What the bytes are.
+        format: ImportFormat,
+        /// What is in the file, at most [`crate::MAX_TEXT_BYTES`].
+        #[serde(with = "crate::bytes")]
+        bytes: Vec<u8>,
+    },
     /// Opens an example.
     OpenExample(Example),
     /// Begins again with nothing.
@@ -95,6 +103,28 @@ pub struct Step {
 pub enum ExportFormat {
     /// Wavefront OBJ: positions, normals, triangles.
     Obj,
+}
+
+/// A format of a mesh that can be imported.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum ImportFormat {
+    /// Wavefront OBJ.
+    Obj,
+    /// The polygon file format, as text or binary.
+    Ply,
+}
+
+impl ImportFormat {
+    /// The format of a file of that name, by its ending.
+    #[must_use]
+    pub fn of_name(name: &str) -> Option<Self> {
+        let (_, ending) = name.rsplit_once('.')?;
+        if ending.eq_ignore_ascii_case("obj") {
+            Some(Self::Obj)
+        } else {
+            ending.eq_ignore_ascii_case("ply").then_some(Self::Ply)
+        }
+    }
 }
 
 /// What the worker answers.

@@ -318,3 +318,70 @@ fn displacements_that_cannot_be_are_refused_with_their_number() {
     document.displacements.insert(SurfaceId(9), Displaced::default());
     assert_eq!(document.validate(), Err(Defect::NothingToDisplace(SurfaceId(9))));
 }
+
+/// A tetrahedron as a cage on the points of the sample.
+fn caged() -> Document {
+    let mut document = sample();
+    let faces = [[1, 3, 2], [1, 2, 7], [2, 3, 7], [3, 1, 7]].map(|face| face.map(PointId).to_vec());
+    document.cages.insert(SurfaceId(5), Cage::new(faces.to_vec()));
+    document
+}
+
+#[test]
+fn what_is_usual_of_a_cage_is_not_written_and_the_rest_comes_back() {
+    let mut document = caged();
+    document.validate().unwrap();
+    assert!(!to_compact_text(&sample()).contains("cages"));
+    assert!(!to_compact_text(&document).contains("settings"));
+    let settings = CageSettings {
+        split: Some(CageSplit::CatmullClark),
+        map: CageMap::Rational,
+        blend: CageBlend::Bump(3),
+        boundary: CageBoundary::Borrow,
+        resolution: Some(7),
+    };
+    document.cages.get_mut(&SurfaceId(5)).unwrap().settings = settings;
+    let text = to_compact_text(&document);
+    let words = r#""settings":{"split":"catmull-clark","map":"rational","blend":{"bump":3},"boundary":"borrow","resolution":7}"#;
+    assert!(text.contains(words), "{text}");
+    assert_eq!(from_text(&text).unwrap(), document);
+    assert_eq!(
+        (document.next_surface(), document.kind_of(SurfaceId(5))),
+        (SurfaceId(6), Some(SurfaceKind::Cage))
+    );
+}
+
+#[test]
+fn cages_that_make_no_sense_are_named() {
+    let broken = |change: &dyn Fn(&mut Cage)| {
+        let mut document = caged();
+        change(document.cages.get_mut(&SurfaceId(5)).unwrap());
+        from_text(&to_text(&document)).unwrap_err().to_string()
+    };
+    assert!(
+        broken(&|cage| cage.faces[1][0] = PointId(9)).contains("surface 5, face 1: point 9 does not exist")
+    );
+    assert!(broken(&|cage| cage.faces[1][0] = PointId(7)).contains("face 1: point 7 is a corner twice"));
+    assert!(broken(&|cage| cage.faces[2].truncate(2)).contains("face 2 has 2 corners"));
+    assert!(broken(&|cage| cage.faces.clear()).contains("surface 5 has no triangles"));
+    assert!(broken(&|cage| cage.settings.blend = CageBlend::Hermite(25)).contains("Hermite blend: 25"));
+    assert!(broken(&|cage| cage.settings.resolution = Some(0)).contains("resolution: 0"));
+    let mut document = caged();
+    document.cages.insert(SurfaceId(2), document.cages[&SurfaceId(5)].clone());
+    assert_eq!(document.validate(), Err(Defect::TwoKinds(SurfaceId(2))));
+    // A hundred of them at the finest are more than a picture needs.
+    let mut document = caged();
+    let mut cage = document.cages[&SurfaceId(5)].clone();
+    cage.settings.resolution = Some(MAX_CAGE_RESOLUTION);
+    document.cages.extend((10..110).map(|id| (SurfaceId(id), cage.clone())));
+    assert!(matches!(document.validate(), Err(Defect::TooMany { what, .. }) if what.contains("cages")));
+}
+
+#[test]
+fn a_file_travels_as_bytes() {
+    let request = Request::Import { format: ImportFormat::Ply, bytes: vec![0, 127, 255] };
+    let text = serde_json::to_string(&request).unwrap();
+    assert_eq!(serde_json::from_str::<Request>(&text).unwrap(), request);
+    let formats = ["a.b.PLY", "cage.obj", "ply", "x.stl"].map(ImportFormat::of_name);
+    assert_eq!(formats, [Some(ImportFormat::Ply), Some(ImportFormat::Obj), None, None]);
+}

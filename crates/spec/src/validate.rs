@@ -15,6 +15,8 @@ const MAX_POINTS: usize = 20_000;
 const MAX_CURVES: usize = 5_000;
 const MAX_SURFACES: usize = 500;
 const MAX_TRIANGLES: usize = 100_000;
+/// Vertices of the tessellations of all surfaces over cages.
+const MAX_SAMPLES: usize = 400_000;
 const MAX_NAME: usize = 200;
 /// Largest coordinate that a direction must have at least: below it the page shows zeros.
 const LEAST_DIRECTION: f64 = 1e-9;
@@ -167,6 +169,18 @@ pub enum Defect {
         face: usize,
         /// How many corners it has.
         corners: usize,
+    },
+    /// A setting of a cage is out of range.
+    #[error("{surface}, {what}: {value}; it lies between 1 and {most}")]
+    CageSetting {
+        /// Which cage.
+        surface: SurfaceId,
+        /// Which setting.
+        what: &'static str,
+        /// Its value.
+        value: u32,
+        /// The largest that it may have.
+        most: u32,
     },
     /// A fill has too few sides.
     #[error("{surface} has {sides} sides; a fill needs at least 3")]

@@ -146,7 +146,7 @@ impl Schedule {
             | Request::OpenExample(_)
             | Request::New
             | Request::Resume(_) => Answered::Opening,
-            Request::Edit(_) | Request::Undo | Request::Redo => Answered::Act,
+            Request::Edit(_) | Request::Import { .. } | Request::Undo | Request::Redo => Answered::Act,
             Request::Grab(_) => Answered::Grab,
             Request::Drop | Request::Cancel => Answered::Release,
             Request::Step(_) => {
@@ -178,6 +178,7 @@ impl Schedule {
         let dragged = self.holds.then(|| "the drag".to_owned());
         let lost = match self.in_flight.take() {
             Some((Request::Edit(edit), _)) => Some(edit.label().to_owned()),
+            Some((Request::Import { .. }, _)) => Some("the import".to_owned()),
             Some((Request::Undo, _)) => Some("Undo".to_owned()),
             Some((Request::Redo, _)) => Some("Redo".to_owned()),
             Some((Request::Grab(_) | Request::Drop, _)) => Some("the drag".to_owned()),
@@ -190,7 +191,9 @@ impl Schedule {
         };
         self.forget_drag();
         // Undo and redo were meant for what is lost, a grab without its steps for nothing.
-        self.queue.retain(|r| matches!(r, Request::Edit(_) | Request::Export(_)) || is_opening(r));
+        let is_kept =
+            |r: &Request| matches!(r, Request::Edit(_) | Request::Import { .. } | Request::Export(_));
+        self.queue.retain(|r| is_kept(r) || is_opening(r));
         if let Some(resume) = resume {
             self.queue.push_front(Request::Resume(resume));
         }

@@ -107,7 +107,8 @@ pub(crate) fn forget_lost_curves(model: &mut Model, before: &SurfaceShape) {
     forget_unused_points(model, before);
 }
 
-fn drop_unused(model: &mut Model, points: impl IntoIterator<Item = PointId>) {
+/// Removes those of some points that nothing uses.
+pub(crate) fn drop_unused(model: &mut Model, points: impl IntoIterator<Item = PointId>) {
     for point in points {
         if is_unused(model, point) {
             model.document_mut().points.remove(&point);

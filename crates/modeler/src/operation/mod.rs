@@ -2,12 +2,16 @@
 //! caller throws the changed model away and keeps the one before.
 
 mod burnout;
+pub(crate) mod cage;
+mod cage_settings;
 mod crease;
 mod curve;
 pub(crate) mod delete;
+mod delete_face;
 mod density;
 mod displace;
 mod expand;
+mod extrude;
 mod glue;
 mod insert;
 mod merge;
@@ -22,10 +26,13 @@ mod reverse;
 mod ribbon;
 mod s_loop;
 mod sheet;
+mod shift;
 mod slide;
 mod smooth;
 mod spacing;
 mod split;
+mod split_edge;
+mod split_face;
 mod sweep;
 mod tangent;
 mod trim;
@@ -41,6 +48,8 @@ use ductile_spec::{Edit, MAX_COORDINATE, PointId, SurfaceId};
 use glam::DVec3;
 use std::sync::Arc;
 
+pub(crate) use cage::import;
+pub(crate) use delete::drop_unused;
 pub(crate) use insert::insert;
 pub(crate) use pin::pin;
 pub(crate) use ribbon::forget_lost;
@@ -137,6 +146,13 @@ fn act(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result<(), ModelErr
         Edit::Ribbon { surface, curve, leave } => {
             ribbon::ribbon(model, relaxer, *surface, *curve, leave.as_ref())
         }
+        Edit::Shift { points, by } => shift::shift(model, points, *by),
+        Edit::Cage { .. }
+        | Edit::CageSettings { .. }
+        | Edit::Extrude { .. }
+        | Edit::DeleteFace { .. }
+        | Edit::SplitEdge { .. }
+        | Edit::SplitFace { .. } => act_on_cage(model, edit),
         Edit::Rename { name } => {
             model.document_mut().name.clone_from(name);
             Ok(model.document.validate()?)
@@ -147,6 +163,21 @@ fn act(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result<(), ModelErr
         | Edit::EraseDisplacement { .. }
         | Edit::DropDisplacements { .. }
         | Edit::Blending { .. } => Ok(()),
+    }
+}
+
+/// The acts on cages.
+fn act_on_cage(model: &mut Model, edit: &Edit) -> Result<(), ModelError> {
+    match edit {
+        Edit::Cage { from } => cage::cage(model, from),
+        Edit::CageSettings { surface, settings } => cage_settings::choose(model, *surface, *settings),
+        Edit::Extrude { surface, face, distance } => extrude::extrude(model, *surface, *face, *distance),
+        Edit::DeleteFace { surface, face } => delete_face::delete_face(model, *surface, *face),
+        Edit::SplitEdge { surface, ends, at } => split_edge::split_edge(model, *surface, *ends, *at),
+        Edit::SplitFace { surface, face, between } => {
+            split_face::split_face(model, *surface, *face, *between)
+        }
+        _ => Ok(()),
     }
 }
 

@@ -1,13 +1,10 @@
 //! A surface over a cage whose vertices are control points of the document.
 
+use super::polygons::Polygons;
 use crate::error::ModelError;
-use ductile_patch::cage::{Cage, CageSurface, Settings, Split, Tessellation};
-use ductile_spec::{Document, PointId, SurfaceId};
+use ductile_patch::cage::{Blend, Boundary, CageSurface, Map, Settings, Split, Tessellation};
+use ductile_spec::{CageBlend, CageBoundary, CageMap, CageSplit, Document, PointId, SurfaceId};
 use glam::DVec3;
-use std::collections::BTreeSet;
-
-/// Steps along every edge of a quad of the split cage.
-const RESOLUTION: usize = 8;
 
 /// The tessellation of a surface over a cage.
 #[derive(Clone, Debug)]
@@ -18,6 +15,8 @@ pub struct CageShape {
     edges: Vec<[u32; 2]>,
     surface: CageSurface,
     tessellation: Tessellation,
+    /// Vertices that were evaluated when it last followed its cage.
+    evaluated: usize,
     /// Names this connectivity.
     pub revision: u64,
 }
@@ -26,29 +25,36 @@ impl CageShape {
     /// The surface over a cage of a document.
     ///
     /// # Errors
-    /// [`ModelError::NoPoint`] for a corner that is none, [`ModelError::Cage`] for what is no surface.
+    /// [`ModelError::NoPoint`] for a corner that is none, [`ModelError::Cage`] for what is no surface, or cannot be made as it
+    /// should be.
     pub(crate) fn new(
         id: SurfaceId,
         cage: &ductile_spec::Cage,
         document: &Document,
         revision: u64,
     ) -> Result<Self, ModelError> {
-        let points: Vec<PointId> = cage.points().into_iter().collect();
-        let place = |point: &PointId| document.points.get(point).copied().ok_or(ModelError::NoPoint(*point));
-        let places = points.iter().map(place).collect::<Result<Vec<DVec3>, _>>()?;
-        let index = |point: &PointId| {
-            let found = points.binary_search(point).map_err(|_| ModelError::NoPoint(*point))?;
-            Ok(u32::try_from(found).unwrap_or(u32::MAX))
+        let polygons = Polygons::of(id, cage, document)?;
+        let surface = CageSurface::new(&polygons.cage, settings(cage)).map_err(|e| polygons.refused(e))?;
+        let resolution = cage.resolution() as usize;
+        let tessellation = Tessellation::new(&surface, resolution).map_err(|e| polygons.refused(e))?;
+        let edge = |ends: [PointId; 2]| -> Result<[u32; 2], ModelError> {
+            Ok([polygons.index(ends[0])?, polygons.index(ends[1])?])
         };
-        let corners = |face: &Vec<PointId>| face.iter().map(index).collect::<Result<Vec<u32>, ModelError>>();
-        let faces = cage.faces.iter().map(corners).collect::<Result<Vec<_>, _>>()?;
-        let edges = edges(&faces);
-        let refuse = |reason| ModelError::Cage { surface: id, reason };
-        let cage = Cage::new(places.clone(), faces).map_err(refuse)?;
-        let settings = Settings { split: Split::Offset, ..Settings::default() };
-        let surface = CageSurface::new(&cage, settings).map_err(refuse)?;
-        let tessellation = Tessellation::new(&surface, RESOLUTION).map_err(refuse)?;
-        Ok(Self { points, places, edges, surface, tessellation, revision })
+        let edges = cage.edges().into_iter().map(edge).collect::<Result<_, _>>()?;
+        let (places, evaluated) = (polygons.cage.positions().to_vec(), tessellation.positions().len());
+        Ok(Self { points: polygons.points, places, edges, surface, tessellation, evaluated, revision })
+    }
+
+    /// Vertices that were evaluated when it last followed its cage: those that the moved ones enter.
+    #[must_use]
+    pub fn evaluated(&self) -> usize {
+        self.evaluated
+    }
+
+    /// Rough size in memory of what it does not share with its clones, in bytes.
+    pub(super) fn bytes(&self) -> usize {
+        let (_, own) = self.tessellation.bytes();
+        own + 24 * self.surface.positions().len() + 40 * self.points.len()
     }
 
     pub(super) fn positions(&self) -> &[DVec3] {
@@ -77,17 +83,37 @@ impl CageShape {
         let place = |point: &PointId| document.points.get(point).copied();
         let Some(places) = self.points.iter().map(place).collect::<Option<Vec<DVec3>>>() else { return };
         if let Ok(moved) = self.surface.move_to(&places) {
-            self.tessellation.update(self.surface.positions(), &moved);
+            self.evaluated = self.tessellation.update(self.surface.positions(), &moved);
             self.places = places;
         }
     }
 }
 
-/// The edges of faces, each once.
-fn edges(faces: &[Vec<u32>]) -> Vec<[u32; 2]> {
-    let of_face = |face: &Vec<u32>| {
-        let next = face.iter().cycle().skip(1);
-        face.iter().zip(next).map(|(a, b)| [*a.min(b), *a.max(b)]).collect::<Vec<_>>()
-    };
-    faces.iter().flat_map(of_face).collect::<BTreeSet<_>>().into_iter().collect()
+/// What a document says of a cage, in the words of the mathematics.
+fn settings(cage: &ductile_spec::Cage) -> Settings {
+    let said = &cage.settings;
+    Settings {
+        split: match cage.split() {
+            CageSplit::None => Split::None,
+            CageSplit::Linear => Split::Linear,
+            CageSplit::Offset => Split::Offset,
+            CageSplit::CatmullClark => Split::CatmullClark,
+        },
+        map: match said.map {
+            CageMap::Smooth => Map::Smooth,
+            CageMap::Rational => Map::Rational,
+        },
+        blend: match said.blend {
+            CageBlend::Hermite(order) => Blend::Hermite(order),
+            CageBlend::Bump(exponent) => Blend::Bump(exponent),
+            CageBlend::Erbs => Blend::Erbs,
+        },
+        boundary: match said.boundary {
+            CageBoundary::Linear => Boundary::Linear,
+            CageBoundary::Borrow => Boundary::Borrow,
+        },
+    }
 }
+
+#[cfg(test)]
+mod tests;

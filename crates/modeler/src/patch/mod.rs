@@ -2,6 +2,7 @@
 //! in every frame, in the middle of a drag too, and never keep a model from resting.
 
 mod cage;
+mod polygons;
 #[cfg(test)]
 mod tests;
 
@@ -14,6 +15,7 @@ use ductile_spec::{SurfaceId, SurfaceKind, SurfaceSummary};
 use glam::DVec3;
 
 pub use cage::CageShape;
+pub(crate) use polygons::{caged, change};
 
 /// The tessellation of an exact surface, as its controls were when it last followed them.
 #[derive(Clone, Debug)]
@@ -89,7 +91,9 @@ impl PatchShape {
     /// Rough size in memory.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        48 * self.positions().len() + 12 * self.triangles().len()
+        match self {
+            Self::Cage(shape) => shape.bytes(),
+        }
     }
 
     /// Whether its controls have moved since it last followed them.

@@ -1,8 +1,8 @@
 //! What the exact surfaces of a document must satisfy. Whether the faces of a cage form a surface is
 //! for the patches to say.
 
-use super::{Defect, MAX_SURFACES, MAX_TRIANGLES, limit};
-use crate::cage::Cage;
+use super::{Defect, MAX_SAMPLES, MAX_SURFACES, MAX_TRIANGLES, limit};
+use crate::cage::{Cage, CageBlend, MAX_BUMP, MAX_CAGE_RESOLUTION, MAX_HERMITE};
 use crate::document::{Curve, Document};
 use crate::fill::Fill;
 use crate::id::{CurveId, PointId, SurfaceId};
@@ -21,6 +21,8 @@ impl Document {
             }
             validate_cage(*id, cage, &self.points)?;
         }
+        let samples = self.cages.values().map(Cage::samples).fold(0, usize::saturating_add);
+        limit("vertices of tessellated cages", samples, MAX_SAMPLES)?;
         for (id, fill) in &self.fills {
             if self.surfaces.contains_key(id) || self.cages.contains_key(id) {
                 return Err(Defect::TwoKinds(*id));
@@ -50,7 +52,16 @@ fn validate_cage(id: SurfaceId, cage: &Cage, points: &BTreeMap<PointId, DVec3>) 
             return Err(Defect::SmallFace { surface: id, face, corners: corners.len() });
         }
     }
-    Ok(())
+    let within = |what, value, most| {
+        let is_within = (1..=most).contains(&value);
+        if is_within { Ok(()) } else { Err(Defect::CageSetting { surface: id, what, value, most }) }
+    };
+    match cage.settings.blend {
+        CageBlend::Hermite(order) => within("order of the Hermite blend", order, MAX_HERMITE)?,
+        CageBlend::Bump(exponent) => within("exponent of the bump", exponent, MAX_BUMP)?,
+        CageBlend::Erbs => {}
+    }
+    within("resolution", cage.settings.resolution.unwrap_or(1), MAX_CAGE_RESOLUTION)
 }
 
 fn validate_fill(id: SurfaceId, fill: &Fill, curves: &BTreeMap<CurveId, Curve>) -> Result<(), Defect> {
