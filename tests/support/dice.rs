@@ -78,15 +78,18 @@ impl Dice {
         self.bits(bits) as f64 / (1_u64 << bits) as f64
     }
 
-    pub(crate) fn coin(&mut self) -> bool {
+    /// One or the other.
+    pub fn coin(&mut self) -> bool {
         self.below(2) == 0
     }
 
-    pub(crate) fn vector(&mut self) -> DVec3 {
+    /// A vector in the cube from -1 to 1.
+    pub fn vector(&mut self) -> DVec3 {
         DVec3::new(self.unit() - 0.5, self.unit() - 0.5, self.unit() - 0.5) * 2.0
     }
 
-    pub(crate) fn pick<T: Copy>(&mut self, among: &[T]) -> Option<T> {
+    /// One of several, if there is any.
+    pub fn pick<T: Copy>(&mut self, among: &[T]) -> Option<T> {
         if among.is_empty() { None } else { Some(among[self.below(among.len())]) }
     }
 }

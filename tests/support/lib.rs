@@ -109,11 +109,17 @@ impl Bench {
         );
         let vertices: usize = model.surfaces.values().map(|s| s.mesh.vertex_count()).sum();
         let samples: usize = model.curves.values().map(|c| c.nodes.len()).sum();
-        let floats = 6 * vertices + 3 * samples + 3 * model.document.points.len();
+        let exact: usize =
+            model.patches.values().map(|p| 6 * p.positions().len() + 3 * p.net().0.len()).sum();
+        let floats = 6 * vertices + exact + 3 * samples + 3 * model.document.points.len();
         assert_eq!(self.modeler.floats().len(), floats, "a frame misses something after {asked}");
         model.document.validate().unwrap_or_else(|defect| panic!("{defect} after {asked}"));
         assert!(model.curves.keys().eq(model.document.curves.keys()), "curves after {asked}");
         assert!(model.surfaces.keys().eq(model.document.surfaces.keys()), "surfaces after {asked}");
+        let document = &model.document;
+        let exact = |id| document.cages.contains_key(id) || document.fills.contains_key(id);
+        assert_eq!(model.patches.len(), document.cages.len() + document.fills.len(), "patches after {asked}");
+        assert!(model.patches.keys().all(exact), "patches after {asked}");
         for (id, shape) in &model.surfaces {
             validate(&shape.mesh).unwrap_or_else(|defects| panic!("{id}: {defects:?} after {asked}"));
             for embedded in &shape.embeddings {

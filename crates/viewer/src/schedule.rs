@@ -244,6 +244,7 @@ pub fn label(request: &Request) -> &'static str {
     match request {
         Request::OpenText { .. } | Request::OpenLink { .. } | Request::OpenExample(_) => "Open",
         Request::New => "New",
+        Request::Import { .. } => "Import",
         Request::Resume(_) => "Resume",
         Request::Edit(edit) => Edit::label(edit),
         Request::Grab(_) | Request::Drop | Request::Cancel | Request::Step(_) => "Drag",

@@ -60,8 +60,9 @@ impl PatchShape {
         }
     }
 
-    /// Its control net.
-    pub(crate) fn net(&self) -> NetLines<'_> {
+    /// Its control net: places, and the edges between them.
+    #[must_use]
+    pub fn net(&self) -> (&[DVec3], &[[u32; 2]]) {
         match self {
             Self::Cage(shape) => shape.net(),
         }
