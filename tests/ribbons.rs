@@ -4,8 +4,8 @@
 
 use acceptance::Bench;
 use ductile_spec::{
-    CurveId, Document, Edit, Example, GrabTarget, Leave, Objective, ObjectiveOf, PointId, Request, Ribbon,
-    SpacingOf, SurfaceId, from_text, to_text,
+    Cage, CurveId, Document, Edit, Example, GrabTarget, Leave, Objective, ObjectiveOf, PointId, Request,
+    Ribbon, SpacingOf, SurfaceId, from_text, to_text,
 };
 use glam::{DVec3, dvec3};
 use std::f64::consts::{FRAC_PI_4, PI};
@@ -211,10 +211,106 @@ fn documents_with_planes_without_sense_open_and_come_to_rest() {
     let normals =
         [(rim[0], along(&rim[0]) * 1e6), (PointId(5), DVec3::X * 1e-9), (PointId(6), -DVec3::Z)].into();
     let surface = document.surfaces.get_mut(&SURFACE).unwrap();
-    (surface.ribbons, surface.normals) = ([(RIM, Ribbon { cross })].into(), normals);
+    (surface.ribbons, surface.normals) = ([(RIM, Ribbon::directed(cross))].into(), normals);
     let mut bench = Bench::new();
     bench.accept(Request::OpenText { text: to_text(&document) });
     let energy = bench.rest(600);
     assert!(energy.is_finite());
     assert!(places(&bench).iter().all(|p| p.is_finite() && p.length() < 20.0));
+}
+
+const COLLAR: SurfaceId = SurfaceId(2);
+const SECTORS: u32 = 24;
+
+/// A fair disc on a circle of radius 1, and under its rim a collar over a cage, which widens to twice that by a unit of height.
+fn disc_on_a_collar() -> Bench {
+    let mut document = fair_disc().document();
+    let ring = |radius: f64, height: f64| {
+        move |k: u32| {
+            let angle = f64::from(k) * std::f64::consts::TAU / f64::from(SECTORS);
+            dvec3(radius * libm::cos(angle), radius * libm::sin(angle), height)
+        }
+    };
+    let point = |row: u32, k: u32| PointId(100 + row * SECTORS + k % SECTORS);
+    for row in 0..3 {
+        let height = 0.5 * f64::from(row);
+        let place = ring(1.0 + height, -height);
+        document.points.extend((0..SECTORS).map(|k| (point(row, k), place(k))));
+    }
+    let quad = |(row, k): (u32, u32)| {
+        vec![point(row, k), point(row + 1, k), point(row + 1, k + 1), point(row, k + 1)]
+    };
+    let faces = (0..2).flat_map(|row| (0..SECTORS).map(move |k| (row, k))).map(quad);
+    document.cages.insert(COLLAR, Cage::new(faces.collect()));
+    let mut bench = Bench::new();
+    bench.accept(Request::OpenText { text: to_text(&document) });
+    bench.rest(600);
+    bench
+}
+
+/// The largest angle, in degrees, between the tangent planes of disc and collar at the vertices of the disc's rim.
+fn seam(bench: &Bench) -> f64 {
+    let model = bench.modeler.model();
+    let (shape, patch) = (&model.surfaces[&SURFACE], &model.patches[&COLLAR]);
+    let bound = bench.modeler.relaxer().surface(SURFACE, shape).unwrap();
+    let angles = bound.vertices().iter().zip(bound.normals()).filter_map(|(v, normal)| {
+        let at = shape.positions[v.index()];
+        let near = patch.positions().iter().zip(patch.normals());
+        let (_, other) = near.min_by(|a, b| a.0.distance(at).total_cmp(&b.0.distance(at)))?;
+        let angle = libm::acos(normal.dot(*other).abs().min(1.0)).to_degrees();
+        shape.mesh.is_boundary_vertex(*v).then_some(angle)
+    });
+    angles.fold(0.0, f64::max)
+}
+
+#[test]
+fn a_fair_surface_goes_on_smoothly_from_an_exact_one_and_follows_it() {
+    let mut bench = disc_on_a_collar();
+    let before = bench.document.clone();
+    assert!((seam(&bench) - 45.0).abs() < 1.0, "a flat lid on a cone: {}", seam(&bench));
+    let onto = |surface| Edit::Ribbon { surface: SURFACE, curve: RIM, leave: Some(Leave::Onto(surface)) };
+    bench.edit(onto(COLLAR));
+    bench.rest(600);
+    println!("joined: {}", seam(&bench));
+    assert!(seam(&bench) < 0.5, "{}", seam(&bench));
+    assert!(off_cap(&bench, FRAC_PI_4) < 0.02, "it rises to a cap: {}", off_cap(&bench, FRAC_PI_4));
+
+    // The rim of the collar stays, its skirt is pulled up on one side: the cap leans.
+    let skirt = PointId(100 + SECTORS);
+    let at = bench.document().points[&skirt];
+    bench.accept(Request::Grab(GrabTarget::Point(skirt)));
+    for step in 1..=10 {
+        bench.step(Some(at + DVec3::Z * 0.03 * f64::from(step)));
+    }
+    bench.accept(Request::Drop);
+    bench.rest(600);
+    println!("dragged: {}", seam(&bench));
+    assert!(seam(&bench) < 1.5, "{}", seam(&bench));
+    assert!(off_cap(&bench, FRAC_PI_4) > 0.02, "it followed");
+
+    // The same from the text; without the collar it is free; undo leads all the way back.
+    let mut other = Bench::new();
+    other.accept(Request::OpenText { text: to_text(&bench.document()) });
+    other.rest(600);
+    assert!(seam(&other) < 1.5, "{}", seam(&other));
+    bench.edit(Edit::DeleteSurface { surface: COLLAR });
+    assert!(bench.document().surfaces[&SURFACE].ribbons.is_empty());
+    for _ in 0..3 {
+        bench.accept(Request::Undo);
+    }
+    assert_eq!(bench.document, before);
+
+    // Not from itself, not from what is not there, not from what does not reach the curve.
+    for (edit, reason) in [(onto(SURFACE), "no fill"), (onto(SurfaceId(9)), "no fill")] {
+        let text = bench.send(Request::Edit(edit)).refused.unwrap().reason;
+        assert!(text.contains(reason), "{text}");
+    }
+    let far = bench.document().points[&PointId(100)] + DVec3::X * 3.0;
+    bench.edit(Edit::Move { point: PointId(100), to: far });
+    for k in 1..SECTORS {
+        let to = bench.document().points[&PointId(100 + k)] * 4.0;
+        bench.edit(Edit::Move { point: PointId(100 + k), to });
+    }
+    let text = bench.send(Request::Edit(onto(COLLAR))).refused.unwrap().reason;
+    assert!(text.contains("rim"), "{text}");
 }

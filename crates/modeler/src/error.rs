@@ -168,6 +168,17 @@ pub enum ModelError {
         /// The curve.
         curve: CurveId,
     },
+    /// The surface is no exact one.
+    #[error("{0} is no surface over a cage and no fill")]
+    NoPatch(SurfaceId),
+    /// The curve does not run along the rim of the exact surface.
+    #[error("{curve} does not run along a rim of {surface}: there is nothing to go on from")]
+    NotAtRim {
+        /// The curve.
+        curve: CurveId,
+        /// The exact surface.
+        surface: SurfaceId,
+    },
     /// There is no such point.
     #[error("{0} does not exist")]
     NoPoint(PointId),

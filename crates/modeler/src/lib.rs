@@ -33,6 +33,6 @@ pub use error::ModelError;
 pub use example::example;
 pub use model::Model;
 pub use modeler::Modeler;
-pub use patch::{CageShape, PatchShape};
+pub use patch::{CageShape, NetLines, PatchShape};
 pub use relax::{Relaxation, Relaxer};
 pub use shape::{CurveShape, EmbeddedCurve, Pin, SurfaceShape};

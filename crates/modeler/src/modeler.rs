@@ -255,6 +255,8 @@ impl Modeler {
                 None => self.relaxer.count_rescue(),
             }
         }
+        // What goes on from an exact surface needs it where its controls are now.
+        patch::follow(&mut self.model);
         self.relaxer.step(&mut self.model, step.iterations);
         if let Some(grab) = self.grab.as_mut()
             && self.relaxer.is_hand_slow()

@@ -5,11 +5,15 @@
 //! curve, from both ends, by double reflection (Wang et al., *Computation of rotation minimizing frames*, 2008), and blended
 //! by angle. So a single direction does for a whole rim: along a plane one its angle to the plane stays what it is.
 //!
+//! A ribbon can also go on from an exact surface that ends at the curve: its directions are those that lead away from that
+//! one within its tangent planes, as they are now.
+//!
 //! What cannot be is not asked for: of a normal at a point of a curve only what is across the curve counts, and where two
 //! curves cross, their tangents are the plane already.
 
 use crate::error::ModelError;
 use crate::model::Model;
+use crate::patch::PatchRim;
 use crate::shape::{CurveShape, EmbeddedCurve, SurfaceShape};
 use ductile_mesh::VertexId;
 use ductile_solver::Rings;
@@ -41,7 +45,13 @@ impl Planes<'_> {
         for (curve, ribbon) in &surface.ribbons {
             let embedded = self.shape.embeddings.iter().find(|embedded| embedded.curve == *curve);
             let (Some(embedded), Some(shape)) = (embedded, self.model.curves.get(curve)) else { continue };
-            let crosses = crosses(&self.model.document, *curve, shape, ribbon);
+            let crosses = match ribbon.onto.and_then(|other| self.model.patches.get(&other)) {
+                Some(patch) => {
+                    let rim = PatchRim::new(patch);
+                    shape.nodes.iter().map(|at| rim.away(*at)).collect()
+                }
+                None => crosses(&self.model.document, *curve, shape, ribbon),
+            };
             for ((v, normal), cross) in embedded.vertices.iter().zip(self.along(embedded, shape)).zip(crosses)
             {
                 let (Some(across), Some(cross)) = (normal, cross) else { continue };
@@ -367,7 +377,7 @@ mod tests {
             |k: u32| 2.0 * DVec3::new(libm::cos(f64::from(k) * turn), libm::sin(f64::from(k) * turn), 0.0);
         let controls: Vec<_> = controls.iter().map(|k| (*k, PointId(*k))).collect();
         let ribbon =
-            Ribbon { cross: controls.iter().map(|(_, id)| *id).zip(cross.iter().copied()).collect() };
+            Ribbon::directed(controls.iter().map(|(_, id)| *id).zip(cross.iter().copied()).collect());
         let nodes = (0..samples).map(place).collect();
         let shape = CurveShape { nodes, closed: true, controls, revision: 0 };
         crosses(&Document::default(), CurveId(1), &shape, &ribbon)
@@ -414,7 +424,7 @@ mod tests {
         let nodes = (0..9).map(|k| DVec3::X * f64::from(k)).collect();
         let controls = vec![(0, PointId(0)), (4, PointId(4)), (8, PointId(8))];
         let shape = CurveShape { nodes, closed: false, controls, revision: 0 };
-        let ribbon = Ribbon { cross: [(PointId(4), DVec3::new(1.0, 2.0, 0.0))].into() };
+        let ribbon = Ribbon::directed([(PointId(4), DVec3::new(1.0, 2.0, 0.0))].into());
         assert_eq!(crosses(&Document::default(), CurveId(1), &shape, &ribbon), vec![Some(DVec3::Y); 9]);
     }
 }

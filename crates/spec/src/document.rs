@@ -157,8 +157,19 @@ pub struct Surface {
 pub struct Ribbon {
     /// The direction in which the surface leaves the curve at some of its points, at least one. What runs along the
     /// curve does not count, nor does the length. Inside a surface it is the side to the curve's left.
-    #[serde(deserialize_with = "crate::text::unique")]
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty", deserialize_with = "crate::text::unique")]
     pub cross: BTreeMap<PointId, DVec3>,
+    /// An exact surface that ends at the curve, instead of directions: it is gone on from smoothly, wherever it is moved.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub onto: Option<SurfaceId>,
+}
+
+impl Ribbon {
+    /// A ribbon with these directions.
+    #[must_use]
+    pub fn directed(cross: BTreeMap<PointId, DVec3>) -> Self {
+        Self { cross, onto: None }
+    }
 }
 
 /// A region of a surface: what lies beside a stretch of one of its curves, up to the next curves.

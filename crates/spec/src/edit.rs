@@ -369,6 +369,8 @@ pub enum Leave {
     Angle(f64),
     /// In these directions, by control point.
     Cross(BTreeMap<PointId, DVec3>),
+    /// So that it goes on smoothly from an exact surface that ends at the curve.
+    Onto(SurfaceId),
 }
 
 /// What an objective is chosen for.

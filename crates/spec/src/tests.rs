@@ -32,7 +32,7 @@ fn sample() -> Document {
         triangles: vec![[0, 1, 3], [1, 2, 3], [2, 0, 4], [0, 3, 4], [3, 2, 4]],
         curves: vec![Embedding { curve: CurveId(4), along: vec![0, 1, 2] }],
     };
-    let ribbon = Ribbon { cross: [(PointId(3), dvec3(0.1, 0.0, -2.5))].into() };
+    let ribbon = Ribbon::directed([(PointId(3), dvec3(0.1, 0.0, -2.5))].into());
     document.surfaces.insert(
         SurfaceId(2),
         Surface {
@@ -216,18 +216,18 @@ fn normals_and_ribbons_must_be_directions_where_the_surface_has_controls() {
         let normal = refused(&|surface| surface.normals = [(PointId(7), direction)].into());
         assert!(matches!(normal, Defect::Normal { point: PointId(7), .. }), "{normal}");
         let cross = refused(&|surface| {
-            drop(surface.ribbons.insert(CurveId(4), Ribbon { cross: [(PointId(1), direction)].into() }));
+            drop(surface.ribbons.insert(CurveId(4), Ribbon::directed([(PointId(1), direction)].into())));
         });
         assert!(matches!(cross, Defect::Cross { point: PointId(1), .. }), "{cross}");
     }
     let nowhere = refused(&|surface| surface.normals = [(PointId(9), DVec3::X)].into());
     assert!(matches!(nowhere, Defect::Normal { point: PointId(9), .. }), "{nowhere}");
     let beside = refused(&|surface| {
-        drop(surface.ribbons.insert(CurveId(4), Ribbon { cross: [(PointId(7), DVec3::X)].into() }));
+        drop(surface.ribbons.insert(CurveId(4), Ribbon::directed([(PointId(7), DVec3::X)].into())));
     });
     assert!(matches!(beside, Defect::Cross { point: PointId(7), .. }), "{beside}");
     for ribbons in
-        [(CurveId(4), Ribbon::default()), (CurveId(5), Ribbon { cross: [(PointId(1), DVec3::X)].into() })]
+        [(CurveId(4), Ribbon::default()), (CurveId(5), Ribbon::directed([(PointId(1), DVec3::X)].into()))]
     {
         let curve = ribbons.0;
         let refused = refused(&|surface| surface.ribbons = [ribbons.clone()].into());

@@ -2,6 +2,7 @@
 //! is in range, every size is within its limit. Whether a skeleton is a manifold is for the mesh to say.
 
 use crate::document::{Curve, Document, MAX_COORDINATE, SkeletonVertex, Surface};
+use crate::frame::SurfaceKind;
 use crate::id::{CurveId, PointId, SurfaceId};
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
@@ -411,8 +412,17 @@ fn validate_planes(id: SurfaceId, surface: &Surface, document: &Document) -> Res
         let Some(curve) = document.curves.get(along).filter(|_| is_embedded) else {
             return refuse("the curve does not lie in the surface");
         };
-        if ribbon.cross.is_empty() {
-            return refuse("it has no direction anywhere");
+        match ribbon.onto {
+            Some(_) if !ribbon.cross.is_empty() => {
+                return refuse("it has directions and another surface to go on from: only one can be met");
+            }
+            Some(other)
+                if !matches!(document.kind_of(other), Some(SurfaceKind::Cage | SurfaceKind::Fill)) =>
+            {
+                return refuse("what it goes on from is no surface over a cage and no fill");
+            }
+            None if ribbon.cross.is_empty() => return refuse("it has no direction anywhere"),
+            _ => {}
         }
         for (point, direction) in &ribbon.cross {
             let refuse = |why| Err(Defect::Cross { surface: id, curve: *along, point: *point, why });

@@ -75,6 +75,7 @@ pub(crate) fn curve(model: &mut Model, id: CurveId) -> Result<(), ModelError> {
 /// Removes a surface; its curves stay.
 pub(crate) fn surface(model: &mut Model, id: SurfaceId) -> Result<(), ModelError> {
     model.document_mut().displacements.remove(&id);
+    ribbon::forget_onto(model, id);
     if let Some(cage) = model.document_mut().cages.remove(&id) {
         model.patches.remove(&id);
         drop_unused(model, cage.points());

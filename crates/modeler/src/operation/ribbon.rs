@@ -2,6 +2,7 @@
 
 use crate::error::ModelError;
 use crate::model::{Model, round_to_digits};
+use crate::patch::PatchRim;
 use crate::plane;
 use crate::relax::Relaxer;
 use ductile_spec::{CurveId, Leave, Objective, Ribbon, SkeletonVertex, SurfaceId};
@@ -19,9 +20,17 @@ pub(super) fn ribbon(
     leave: Option<&Leave>,
 ) -> Result<(), ModelError> {
     let shape = model.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?;
-    let cross = match leave {
+    let ribbon = match leave {
         None => None,
-        Some(Leave::Cross(cross)) => Some(cross.clone()),
+        Some(Leave::Cross(cross)) => Some(Ribbon::directed(cross.clone())),
+        Some(Leave::Onto(other)) => {
+            let patch = model.patches.get(other).ok_or(ModelError::NoPatch(*other))?;
+            let along = model.curves.get(&curve).ok_or(ModelError::NoCurve(curve))?;
+            if !PatchRim::new(patch).is_at(&along.nodes) {
+                return Err(ModelError::NotAtRim { curve, surface: *other });
+            }
+            Some(Ribbon { onto: Some(*other), ..Ribbon::default() })
+        }
         Some(Leave::Angle(angle)) => {
             if angle.is_nan() || angle.abs() > core::f64::consts::PI {
                 return Err(ModelError::BadAngle);
@@ -32,15 +41,14 @@ pub(super) fn ribbon(
             // Noise of a sine is no digit.
             let kept = |x: f64| if x.abs() < 1e-12 { 0.0 } else { kept(x) };
             cross.values_mut().for_each(|at| *at = DVec3::from_array(at.to_array().map(kept)));
-            Some(cross)
+            Some(Ribbon::directed(cross))
         }
     };
     let ribbons = &mut model.document_mut().surfaces.get_mut(&id).ok_or(ModelError::NoSurface(id))?.ribbons;
-    let Some(cross) = cross else {
+    let Some(ribbon) = ribbon else {
         ribbons.remove(&curve);
         return Ok(model.document.validate()?);
     };
-    let ribbon = Ribbon { cross };
     ribbons.insert(curve, ribbon.clone());
     model.document.validate()?;
     check_bends(model, id)?;
@@ -64,7 +72,14 @@ pub(crate) fn forget_lost(model: &mut Model) {
         surface.ribbons.retain(|id, ribbon| {
             let curve = curves.get(id).filter(|_| skeleton.curves.iter().any(|e| e.curve == *id));
             ribbon.cross.retain(|point, _| curve.is_some_and(|curve| curve.through.contains(point)));
-            !ribbon.cross.is_empty()
+            !ribbon.cross.is_empty() || ribbon.onto.is_some()
         });
+    }
+}
+
+/// Forgets the ribbons that go on from a surface that is no more.
+pub(super) fn forget_onto(model: &mut Model, patch: SurfaceId) {
+    for surface in model.document_mut().surfaces.values_mut() {
+        surface.ribbons.retain(|_, ribbon| ribbon.onto != Some(patch));
     }
 }

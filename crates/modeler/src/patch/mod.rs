@@ -3,6 +3,7 @@
 
 mod cage;
 mod polygons;
+mod rim;
 #[cfg(test)]
 mod tests;
 
@@ -16,6 +17,7 @@ use glam::DVec3;
 
 pub use cage::CageShape;
 pub(crate) use polygons::{caged, change};
+pub(crate) use rim::PatchRim;
 
 /// The tessellation of an exact surface, as its controls were when it last followed them.
 #[derive(Clone, Debug)]
@@ -25,7 +27,7 @@ pub enum PatchShape {
 }
 
 /// A control net: places and the edges between them.
-pub(crate) type NetLines<'a> = (&'a [DVec3], &'a [[u32; 2]]);
+pub type NetLines<'a> = (&'a [DVec3], &'a [[u32; 2]]);
 
 impl PatchShape {
     /// What kind of surface it is.
@@ -62,7 +64,7 @@ impl PatchShape {
 
     /// Its control net: places, and the edges between them.
     #[must_use]
-    pub fn net(&self) -> (&[DVec3], &[[u32; 2]]) {
+    pub fn net(&self) -> NetLines<'_> {
         match self {
             Self::Cage(shape) => shape.net(),
         }

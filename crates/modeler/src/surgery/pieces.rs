@@ -15,7 +15,7 @@ use ductile_mesh::{
     Extracted, FaceId, Labels, Mesh, SourceTag, VertexId, components, is_orientable, propagate_orientation,
     regions,
 };
-use ductile_spec::{Curve, CurveId, PointId, Region, Surface, SurfaceId};
+use ductile_spec::{Curve, CurveId, PointId, Region, Ribbon, Surface, SurfaceId};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -228,7 +228,7 @@ fn rename(
         for (curve, points) in through {
             let mut own = ribbon.clone();
             own.cross.retain(|point, _| points.contains(point));
-            if !own.cross.is_empty() {
+            if !own.cross.is_empty() || own.onto.is_some() {
                 surface.ribbons.insert(curve, own);
             }
         }
@@ -443,8 +443,8 @@ fn tell_planes(
         let turn = if was_inner && is_right_of(&shape.mesh, &vertices) { -1.0 } else { 1.0 };
         let points = vertices.iter().filter_map(|v| shape.mesh.vertex_source(*v)).map(|tag| PointId(tag.0));
         let cross = points.filter_map(|point| Some((point, *ribbon.cross.get(&old(point))? * turn)));
-        let ribbon = ductile_spec::Ribbon { cross: cross.collect() };
-        if !ribbon.cross.is_empty() {
+        let ribbon = Ribbon { cross: cross.collect(), onto: ribbon.onto };
+        if !ribbon.cross.is_empty() || ribbon.onto.is_some() {
             own.ribbons.insert(*curve, ribbon);
         }
     }

@@ -9,7 +9,9 @@ use super::panel::Panel;
 use super::port::Port;
 use super::settings::Settings;
 use super::stage::Stage;
-use super::{canvas, commands, density, fields, files, inspect, keyboard, link, objectives, opening, stage};
+use super::{
+    canvas, commands, density, fields, files, inspect, keyboard, link, objectives, opening, ribbon, stage,
+};
 use crate::limit::Limit;
 use crate::memory::Memory;
 use crate::schedule::Schedule;
@@ -141,6 +143,7 @@ pub(crate) fn start() {
     objectives::listen();
     density::listen();
     legend::listen();
+    ribbon::listen();
     files::listen();
     link::listen();
     stage::listen();

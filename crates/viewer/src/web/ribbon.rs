@@ -4,18 +4,30 @@
 //! says so. Where a curve lies in several surfaces the field belongs to the first.
 
 use super::dom;
-use super::page::Page;
+use super::page::{Page, act};
 use crate::number;
 use crate::tool::Selection;
 use ductile_spec::{CurveId, Edit, Leave, PointId, Request, SurfaceId};
 use glam::{DVec2, DVec3, Vec3};
-use web_sys::HtmlInputElement;
+use web_sys::{Event, HtmlInputElement, HtmlSelectElement};
 
 /// The field.
 pub(crate) const FIELD: &str = "ribbon-angle";
+/// The select of the surface that is gone on from.
+const ONTO: &str = "ribbon-onto";
 
 /// Degrees by which the angles at the points may differ and still be shown as one.
 const ALIKE: f64 = 0.05;
+
+/// Listens to the select.
+pub(crate) fn listen() {
+    let select: HtmlSelectElement = dom::element_as(ONTO);
+    let own = select.clone();
+    dom::listen(&select, "change", move |_: Event| {
+        let other = own.value().parse().ok().map(SurfaceId);
+        act(move |page| page.choose_onto(other));
+    });
+}
 
 impl Page {
     /// The chosen curve and the surface that the field is about.
@@ -36,7 +48,45 @@ impl Page {
         let has_ribbon = subject.is_some_and(|subject| self.ribbon(subject).is_some());
         dom::show(&dom::element("free-ribbon"), has_ribbon);
         let field: HtmlInputElement = dom::element_as(FIELD);
-        field.set_placeholder(if has_ribbon { "various" } else { "free" });
+        let onto = subject.and_then(|subject| self.ribbon(subject)).and_then(|ribbon| ribbon.onto);
+        field.set_placeholder(match (has_ribbon, onto) {
+            (_, Some(_)) => "as that surface",
+            (true, None) => "various",
+            (false, None) => "free",
+        });
+        self.show_onto(onto);
+    }
+
+    /// Lists the exact surfaces that the surface could go on from.
+    fn show_onto(&self, chosen: Option<SurfaceId>) {
+        let all: Vec<SurfaceId> =
+            self.document.fills.keys().chain(self.document.cages.keys()).copied().collect();
+        dom::show(&dom::element("ribbon-onto-row"), !all.is_empty());
+        let select: HtmlSelectElement = dom::element_as(ONTO);
+        let names: String = all.iter().map(|id| format!("{} ", id.0)).collect();
+        if select.get_attribute("data-names").as_deref() != Some(&names) {
+            dom::attribute(&select, "data-names", &names);
+            dom::clear(&select);
+            for (value, name) in [(String::new(), "none".to_owned())]
+                .into_iter()
+                .chain(all.iter().map(|id| (id.0.to_string(), format!("Surface {}", id.0))))
+            {
+                let option = dom::create_with("option", "", &name);
+                dom::attribute(&option, "value", &value);
+                dom::append(&select, [&option]);
+            }
+        }
+        let value = chosen.map(|id| id.0.to_string()).unwrap_or_default();
+        if select.value() != value {
+            select.set_value(&value);
+        }
+    }
+
+    /// Lets the surface go on smoothly from an exact one at the chosen curve, or no longer.
+    fn choose_onto(&mut self, other: Option<SurfaceId>) {
+        let Some((surface, curve)) = self.ribbon_subject() else { return };
+        let leave = other.map(Leave::Onto);
+        self.request(Request::Edit(Edit::Ribbon { surface, curve, leave }));
     }
 
     /// Takes what was typed; says what is wrong with it.
