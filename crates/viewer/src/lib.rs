@@ -4,6 +4,7 @@
 pub mod address;
 mod background_pass;
 mod buffer;
+mod cage_net;
 mod camera;
 mod closest;
 mod curvature;
@@ -37,12 +38,13 @@ mod triad;
 mod uniforms;
 pub mod web;
 
+pub use cage_net::{cage_edge_at, cage_face, with_cage_face};
 pub use camera::{Camera, Pose, Ray, View};
 pub use closest::closest_places;
 pub use curvature::mean_range;
 pub use drape::drape;
 pub use gpu::{GpuError, Renderer};
-pub use look::{Highlight, Look, Shading, Slices, Tinted, WorkPlane};
+pub use look::{Highlight, Look, NetPart, Shading, Slices, Tinted, WorkPlane};
 pub use meeting::Meetings;
 pub use pick::{Hit, Wanted, pick, pick_among};
 pub use rim::{RimHit, Rims};

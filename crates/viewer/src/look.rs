@@ -152,10 +152,21 @@ pub struct Highlight {
     pub rims: Vec<Vec<Vec3>>,
     /// Lines that show what a tool would make.
     pub sketch: Vec<Vec<Vec3>>,
+    /// Edges and faces of cages: a face by its corners, an edge by its ends.
+    pub parts: Vec<NetPart>,
     /// Where new points go; the grid lies in it. The ground (z = 0) where there is none.
     pub work_plane: Option<WorkPlane>,
     /// The axis of the triad under the pointer.
     pub hover_view: Option<View>,
+}
+
+/// An edge or a face of a cage that is marked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NetPart {
+    /// Its corners.
+    pub places: Vec<Vec3>,
+    /// Whether it is selected; else the pointer is on it.
+    pub is_selected: bool,
 }
 
 /// What is tinted.

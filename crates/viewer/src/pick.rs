@@ -44,6 +44,26 @@ pub enum Hit {
         /// Which triangle of the frame.
         triangle: u32,
     },
+    /// An edge of a cage.
+    Edge {
+        /// The surface over the cage.
+        surface: SurfaceId,
+        /// Its ends.
+        ends: [PointId; 2],
+        /// Its place nearest to the pointer.
+        at: Vec3,
+    },
+    /// A face of a cage.
+    Face {
+        /// The surface over the cage.
+        surface: SurfaceId,
+        /// Which face, in the order of the document.
+        face: u32,
+        /// The place of the surface over it under the pointer.
+        at: Vec3,
+        /// The unit normal of the face, outward.
+        normal: Vec3,
+    },
 }
 
 impl Hit {
@@ -51,7 +71,11 @@ impl Hit {
     #[must_use]
     pub fn at(&self) -> Vec3 {
         match *self {
-            Self::Point { at, .. } | Self::Curve { at, .. } | Self::Surface { at, .. } => at,
+            Self::Point { at, .. }
+            | Self::Curve { at, .. }
+            | Self::Surface { at, .. }
+            | Self::Edge { at, .. }
+            | Self::Face { at, .. } => at,
         }
     }
 }

@@ -17,6 +17,8 @@ const CURVE: f32 = 1.3;
 const BOUNDARY: f32 = 1.6;
 /// Half the width of an edge of a control net.
 const NET: f32 = 0.6;
+/// Half the width of the selected edge or face of one.
+const NET_SELECTED: f32 = 2.0;
 /// What hover adds to half a width or a radius.
 const THICKER: f32 = 0.9;
 /// Half the width of a line that shows what a tool would make.
@@ -147,7 +149,7 @@ pub(crate) fn add_highlight(marks: &mut Marks, camera: &Camera, highlight: &High
     match highlight.hover {
         Some(Hit::Surface { at, normal, .. }) => add_ring(marks, camera, at, normal, theme),
         Some(Hit::Curve { at, .. }) => marks.add_dot(at, ghost(theme)),
-        Some(Hit::Point { .. }) | None => {}
+        Some(Hit::Point { .. } | Hit::Edge { .. } | Hit::Face { .. }) | None => {}
     }
     for (at, way) in &highlight.directions {
         add_direction(marks, camera, *at, *way, theme);
@@ -161,6 +163,12 @@ pub(crate) fn add_highlight(marks: &mut Marks, camera: &Camera, highlight: &High
         let fill = theme.accent.with_w(0.8);
         let style = Style { fill, half_width: SKETCH, hidden: 0.35, ..Style::default() };
         marks.add_polyline(line.iter().copied(), false, style);
+    }
+    for part in &highlight.parts {
+        let (fill, half_width) =
+            if part.is_selected { (theme.selected, NET_SELECTED) } else { (theme.accent, CURVE) };
+        let style = Style { fill, half_width, hidden: 0.6, ..Style::default() };
+        marks.add_polyline(part.places.iter().copied(), part.places.len() > 2, style);
     }
     for rim in &highlight.rims {
         let style = Style {
@@ -248,6 +256,7 @@ fn add_ring(marks: &mut Marks, camera: &Camera, at: Vec3, normal: Vec3, theme: &
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::look::NetPart;
     use crate::sample;
     use ductile_spec::CurveId;
     #[cfg(target_arch = "wasm32")]
@@ -299,6 +308,18 @@ mod tests {
         let held = Highlight { held: Some(PointId(3)), ..Highlight::default() };
         assert_eq!(point_style(PointId(3), &held, &theme).outline, theme.selected);
         assert_eq!(point_style(PointId(2), &held, &theme).outline, theme.halo);
+    }
+
+    #[test]
+    fn a_face_of_a_cage_is_a_closed_line_and_an_edge_an_open_one() {
+        let (mut marks, camera, theme) = (Marks::default(), Camera::default(), Theme::new(false));
+        let face = NetPart { places: vec![Vec3::ZERO, Vec3::X, Vec3::Y], is_selected: true };
+        let edge = NetPart { places: vec![Vec3::ZERO, Vec3::Z], is_selected: false };
+        let highlight = Highlight { parts: vec![face, edge], ..Highlight::default() };
+        add_highlight(&mut marks, &camera, &highlight, &theme);
+        assert_eq!(marks.segments.len(), 3 + 1);
+        let [selected, hovered] = [marks.curve_styles[0], marks.curve_styles[1]];
+        assert_eq!((selected.fill, hovered.fill), (theme.selected, theme.accent));
     }
 
     #[test]

@@ -7,6 +7,7 @@ use crate::{Hit, Scene};
 use ductile_spec::{CurveId, CurveSpan, Document, Edit, On, PointEntry, PointId, Structure, SurfaceId};
 use glam::Vec3;
 
+mod cage;
 mod drag;
 mod ghost;
 mod handle;
@@ -73,6 +74,8 @@ pub struct Surroundings<'a> {
     pub forward: Vec3,
     /// Radius of a tube that suits the model, while nobody has chosen another.
     pub radius: f64,
+    /// Size of a cage that suits the view, while nobody has chosen another.
+    pub size: f64,
 }
 
 /// A key that a tool understands.
@@ -168,7 +171,7 @@ impl Toolbox {
     /// Whether a drag takes hold of things, rather than turning the view.
     #[must_use]
     pub fn holds(&self) -> bool {
-        self.kind == ToolKind::Shape
+        matches!(self.kind, ToolKind::Shape | ToolKind::Cage)
     }
 
     /// What the tool wants next, in one line.
@@ -186,6 +189,9 @@ impl Toolbox {
                 "Click a curve in a surface, or a region, to crease it. Click a crease to smooth it."
             }
             ToolKind::Split => "Click a curve in a surface, or a region, to cut the surface there.",
+            ToolKind::Cage => {
+                "Click where a cage should stand, or drag vertices, edges and faces of one. E extrudes a face."
+            }
             ToolKind::Sweep | ToolKind::Glue | ToolKind::Merge | ToolKind::Trim | ToolKind::Match => {
                 self.pair_hint()
             }
@@ -210,6 +216,7 @@ impl Toolbox {
             ToolKind::Merge => self.pick_merge(Place::of(aim.hit), around.radius),
             ToolKind::Trim => self.pick_trim(Place::of(aim.hit)),
             ToolKind::Match => self.pick_match(aim.hit, around.structure),
+            ToolKind::Cage => cage::click(aim, &self.options, around.size),
         }
     }
 
@@ -269,6 +276,10 @@ fn place_point(aim: Aim<'_>) -> Vec<Act> {
         }
         (Some(Hit::Curve { id, at }), _) => Edit::Insert { curve: *id, at: at.as_dvec3() },
         (Some(Hit::Surface { id, at, .. }), _) => Edit::Pin { surface: *id, at: at.as_dvec3() },
+        // Only tools that take hold of cages are shown their parts.
+        (Some(Hit::Edge { surface, at, .. } | Hit::Face { surface, at, .. }), _) => {
+            Edit::Pin { surface: *surface, at: at.as_dvec3() }
+        }
         (None, Some(at)) => Edit::Point { at: at.as_dvec3() },
         (None, None) => return vec![Act::Say(path::NO_PLACE.to_owned())],
     };

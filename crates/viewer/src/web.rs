@@ -5,6 +5,8 @@
 //! for one picture. Nothing waits for the worker.
 
 #[cfg(target_arch = "wasm32")]
+mod cage;
+#[cfg(target_arch = "wasm32")]
 mod canvas;
 #[cfg(target_arch = "wasm32")]
 mod commands;

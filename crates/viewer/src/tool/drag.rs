@@ -62,6 +62,12 @@ impl Drag {
             Hit::Surface { id, at, normal, .. } => {
                 (GrabTarget::Surface { surface: id, at: at.as_dvec3() }, at, normal.try_normalize())
             }
+            Hit::Edge { surface, ends, at } => {
+                (GrabTarget::Edge { surface, ends, at: at.as_dvec3() }, at, None)
+            }
+            Hit::Face { surface, face, at, normal } => {
+                (GrabTarget::Face { surface, face, at: at.as_dvec3() }, at, normal.try_normalize())
+            }
         };
         Self { target, anchor, origin: anchor.as_dvec3(), normal, press, lock: None }
     }
@@ -75,6 +81,12 @@ impl Drag {
     #[must_use]
     pub fn target(&self) -> GrabTarget {
         self.target
+    }
+
+    /// Whether it holds an edge or a face of a cage, rather than a point.
+    #[must_use]
+    pub fn holds_part(&self) -> bool {
+        matches!(self.target, GrabTarget::Edge { .. } | GrabTarget::Face { .. })
     }
 
     /// The surface normal for Shift, where the hit itself has none (on a point of a surface).

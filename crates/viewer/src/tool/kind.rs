@@ -33,13 +33,15 @@ pub enum ToolKind {
     Merge,
     /// Cuts two surfaces where they meet, and joins them there.
     Trim,
+    /// Places cages and takes hold of their parts.
+    Cage,
     /// Lets a curve grow or shrink to the size of another; a button of the properties, not of the bar.
     Match,
 }
 
 impl ToolKind {
     /// Those of the bar.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Shape,
         Self::Point,
         Self::Curve,
@@ -52,6 +54,7 @@ impl ToolKind {
         Self::Glue,
         Self::Merge,
         Self::Trim,
+        Self::Cage,
     ];
 
     /// Its word in the page: `tool-shape` is its button.
@@ -70,6 +73,7 @@ impl ToolKind {
             Self::Glue => "glue",
             Self::Merge => "merge",
             Self::Trim => "trim",
+            Self::Cage => "cage",
             Self::Match => "match",
         }
     }
@@ -90,6 +94,7 @@ impl ToolKind {
             "g" => Some(Self::Glue),
             "m" => Some(Self::Merge),
             "t" => Some(Self::Trim),
+            "q" => Some(Self::Cage),
             _ => None,
         }
     }
@@ -97,13 +102,13 @@ impl ToolKind {
     /// Whether it takes control points.
     #[must_use]
     pub fn wants_points(self) -> bool {
-        matches!(self, Self::Shape | Self::Point | Self::Curve | Self::Draw)
+        matches!(self, Self::Shape | Self::Point | Self::Curve | Self::Draw | Self::Cage)
     }
 
     /// Whether it takes curves.
     #[must_use]
     pub fn wants_curves(self) -> bool {
-        !matches!(self, Self::Burnout | Self::Glue | Self::Merge | Self::Trim)
+        !matches!(self, Self::Burnout | Self::Glue | Self::Merge | Self::Trim | Self::Cage)
     }
 
     /// Whether it takes surfaces, or places on them.
@@ -135,6 +140,7 @@ impl ToolKind {
             (_, Hit::Point { .. }) => self.wants_points(),
             (_, Hit::Curve { .. }) => self.wants_curves(),
             (_, Hit::Surface { .. }) => self.wants_surfaces(),
+            (_, Hit::Edge { .. } | Hit::Face { .. }) => matches!(self, Self::Shape | Self::Cage),
         }
     }
 }

@@ -1,6 +1,7 @@
-//! How the tools that join things do it: choices that stay from one use to the next.
+//! How the tools that make and join things do it: choices that stay from one use to the next.
 
 use super::ToolKind;
+use ductile_spec::CageForm;
 
 /// The choices.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,11 +16,26 @@ pub struct Options {
     pub keep: bool,
     /// Merge: radius of the tube in model units; what suits the model while nobody chose.
     pub radius: Option<f64>,
+    /// Cage: which one a click places.
+    pub form: CageForm,
+    /// Cage: its size in model units; what suits the view while nobody chose.
+    pub size: Option<f64>,
+    /// How far a face is extruded, in model units; what suits the face while nobody chose.
+    pub distance: Option<f64>,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { reversed: false, skirt: true, smooth: false, keep: true, radius: None }
+        Self {
+            reversed: false,
+            skirt: true,
+            smooth: false,
+            keep: true,
+            radius: None,
+            form: CageForm::default(),
+            size: None,
+            distance: None,
+        }
     }
 }
 

@@ -131,8 +131,13 @@ mod tests {
 
     fn sketch(tools: &mut Toolbox, stroke: &Stroke) -> Vec<Act> {
         let (structure, document) = (Structure::default(), Document::default());
-        let around =
-            Surroundings { structure: &structure, document: &document, forward: Vec3::NEG_Z, radius: 1.0 };
+        let around = Surroundings {
+            structure: &structure,
+            document: &document,
+            forward: Vec3::NEG_Z,
+            radius: 1.0,
+            size: 1.0,
+        };
         tools.sketched(stroke, around)
     }
 

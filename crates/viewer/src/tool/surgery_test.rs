@@ -71,8 +71,13 @@ fn click(tools: &mut Toolbox, hit: Option<Hit>) -> Vec<Act> {
 
 fn aimed(tools: &mut Toolbox, aim: Aim<'_>) -> Vec<Act> {
     let (structure, document) = model();
-    let around =
-        Surroundings { structure: &structure, document: &document, forward: Vec3::NEG_Z, radius: 0.25 };
+    let around = Surroundings {
+        structure: &structure,
+        document: &document,
+        forward: Vec3::NEG_Z,
+        radius: 0.25,
+        size: 0.5,
+    };
     tools.click(aim, around)
 }
 
@@ -80,7 +85,13 @@ fn key(tools: &mut Toolbox, key: ToolKey) -> Vec<Act> {
     let (structure, document) = model();
     tools.key(
         key,
-        Surroundings { structure: &structure, document: &document, forward: Vec3::NEG_Z, radius: 0.25 },
+        Surroundings {
+            structure: &structure,
+            document: &document,
+            forward: Vec3::NEG_Z,
+            radius: 0.25,
+            size: 0.5,
+        },
     )
 }
 

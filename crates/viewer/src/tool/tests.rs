@@ -28,7 +28,7 @@ fn key(tools: &mut Toolbox, key: ToolKey) -> Vec<Act> {
 static NOTHING: LazyLock<Document> = LazyLock::new(Document::default);
 
 fn around(structure: &Structure) -> Surroundings<'_> {
-    Surroundings { structure, document: &NOTHING, forward: Vec3::NEG_Z, radius: 0.25 }
+    Surroundings { structure, document: &NOTHING, forward: Vec3::NEG_Z, radius: 0.25, size: 0.5 }
 }
 
 fn on_plane(x: f32) -> Aim<'static> {

@@ -108,6 +108,19 @@ impl Page {
         ends.into_iter().map(|end| self.scene.point(end)).collect()
     }
 
+    /// The points of the selected edge or face, and where one of them is.
+    pub(crate) fn selected_part(&self) -> Option<(Vec<PointId>, Vec3)> {
+        let points = match self.selection {
+            Selection::Edge { ends, .. } => ends.to_vec(),
+            Selection::Face { surface, face } => {
+                self.document.cages.get(&surface)?.faces.get(face as usize)?.clone()
+            }
+            _ => return None,
+        };
+        let at = self.scene.point(*points.first()?)?;
+        Some((points, at))
+    }
+
     /// The surface over a cage that is selected, or of which a part is.
     fn caged(&self) -> Option<(SurfaceId, &Cage)> {
         let surface = match self.selection {

@@ -167,7 +167,7 @@ impl Page {
                     self.request(Request::Edit(Edit::Release { point }));
                 }
             }
-            _ => return false,
+            _ => return self.cage_command(command),
         }
         true
     }
@@ -221,6 +221,9 @@ impl Page {
     /// Deletes what is selected, or releases it if something hangs on it.
     pub(crate) fn delete_selected(&mut self) {
         match self.selection.removal(&self.scene.structure) {
+            None if matches!(self.selection, Selection::Edge { .. }) => {
+                self.notices.refusal("An edge cannot be deleted. Delete a face beside it.");
+            }
             Some(edit) => self.request(Request::Edit(edit)),
             None => self.notices.refusal("Nothing is selected. Click a point, a curve or a surface first."),
         }
@@ -240,6 +243,9 @@ impl Page {
                 let count = self.scene.samples(id).len().max(1);
                 let sum: glam::Vec3 = self.scene.samples(id).sum();
                 Some(sum / glam::DVec2::new(count as f64, 0.0).as_vec2().x)
+            }
+            Selection::Edge { surface, .. } | Selection::Face { surface, .. } => {
+                self.scene.ball_of(surface).map(|(centre, _)| centre)
             }
             Selection::Surface(_) | Selection::None => None,
         };

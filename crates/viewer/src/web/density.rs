@@ -26,7 +26,7 @@ impl Page {
         let of = match self.selection {
             Selection::None => None,
             Selection::Surface(id) => Some(id),
-            Selection::Point(_) | Selection::Curve(_) => return,
+            _ => return,
         };
         self.request(Request::Edit(Edit::Density { of, density }));
     }
@@ -90,7 +90,7 @@ impl Page {
             }
             _ => (Some(self.document.density), false),
         };
-        let has_mesh = matches!(self.selection, Selection::None | Selection::Surface(_));
+        let has_mesh = self.selection == Selection::None || self.fair_surface().is_some();
         dom::show(&dom::element("mesh-properties"), has_mesh);
         let otherwise = if is_inherited { "as the document" } else { "automatic" };
         dom::attribute(&dom::element(OWN), "placeholder", otherwise);

@@ -1,5 +1,6 @@
 //! The fields in which the designer types: coordinates, directions, edge length, name.
 
+use super::cage;
 use super::density;
 use super::dom;
 use super::page::{Page, act};
@@ -33,6 +34,9 @@ pub(crate) fn listen() {
     on_field(ribbon::FIELD, Page::typed_ribbon);
     on_field(extent::FIELD, Page::typed_loop_radius);
     on_field(options::FIELD, Page::typed_tube_radius);
+    for id in cage::FIELDS {
+        on_field(id, move |page, text| page.typed_cage(id, text));
+    }
     on_field("name", |page, text| {
         let name = text.trim().to_owned();
         if name != page.document.name {
@@ -84,6 +88,7 @@ impl Page {
             .chain(tangent::FIELDS)
             .chain(normal::FIELDS)
             .chain(density::FIELDS)
+            .chain(cage::FIELDS)
             .chain([ribbon::FIELD, extent::FIELD, options::FIELD])
         {
             self.fill_field(&dom::element_as(id), false);
@@ -103,6 +108,7 @@ impl Page {
         let value = match (id.as_str(), self.selection) {
             ("name", _) => self.document.name.clone(),
             (field, _) if density::FIELDS.contains(&field) => self.spacing_text(field),
+            (field, _) if cage::FIELDS.contains(&field) => self.cage_text(field),
             (field, Selection::Point(_)) if tangent::FIELDS.contains(&field) => {
                 self.tangent_text(tangent::FIELDS.iter().position(|name| *name == field).unwrap_or(0))
             }

@@ -2,8 +2,8 @@
 
 use super::dom;
 use super::page::{Page, act};
-use ductile_spec::{ExportFormat, MAX_TEXT_BYTES, Request, to_text};
-use js_sys::Array;
+use ductile_spec::{ExportFormat, ImportFormat, MAX_TEXT_BYTES, Request, to_text};
+use js_sys::{Array, Uint8Array};
 use wasm_bindgen::JsCast;
 use wasm_bindgen::JsValue;
 use wasm_bindgen_futures::JsFuture;
@@ -55,8 +55,12 @@ fn open_first(files: Option<FileList>) {
     let Some(file) = files.and_then(|files| files.get(0)) else { return };
     wasm_bindgen_futures::spawn_local(async move {
         let name = file.name();
-        match read(&file).await {
-            Ok(text) => act(move |page| page.request(Request::OpenText { text })),
+        let opened = match ImportFormat::of_name(&name) {
+            Some(format) => bytes_of(&file).await.map(|bytes| Request::Import { format, bytes }),
+            None => read(&file).await.map(|text| Request::OpenText { text }),
+        };
+        match opened {
+            Ok(request) => act(move |page| page.request(request)),
             Err(why) => act(move |page| {
                 let text = format!("“{name}” was not opened: {why}. The model on the screen is as it was.");
                 page.notices.banner("opening", &text, &[]);
@@ -65,10 +69,21 @@ fn open_first(files: Option<FileList>) {
     });
 }
 
+/// What is in a file of a mesh, which need be no text.
+async fn bytes_of(file: &File) -> Result<Vec<u8>, String> {
+    check_size(file)?;
+    let buffer = JsFuture::from(file.array_buffer()).await.map_err(|error| dom::message(&error))?;
+    Ok(Uint8Array::new(&buffer).to_vec())
+}
+
+fn check_size(file: &File) -> Result<(), String> {
+    let is_short = file.size() <= as_float(MAX_TEXT_BYTES);
+    let too_long = || format!("it has {} bytes; the limit is {MAX_TEXT_BYTES}", file.size());
+    if is_short { Ok(()) } else { Err(too_long()) }
+}
+
 async fn read(file: &File) -> Result<String, String> {
-    if file.size() > as_float(MAX_TEXT_BYTES) {
-        return Err(format!("it has {} bytes; the limit is {MAX_TEXT_BYTES}", file.size()));
-    }
+    check_size(file)?;
     let text = JsFuture::from(file.text()).await.map_err(|error| dom::message(&error))?;
     text.as_string().ok_or_else(|| "it is not a text".to_owned())
 }

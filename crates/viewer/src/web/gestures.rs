@@ -158,7 +158,8 @@ impl Page {
 
     /// What a press at a place would take.
     pub(crate) fn thing_at(&self, at: Vec2) -> Option<Hit> {
-        pick_among(&self.scene, &self.camera, at, self.hand.reach(), self.wanted())
+        let hit = pick_among(&self.scene, &self.camera, at, self.hand.reach(), self.wanted());
+        self.cage_part_at(at, hit)
     }
 
     /// What the tool in hand could take, among what is shown.
@@ -218,12 +219,17 @@ impl Page {
     pub(crate) fn click_with(&mut self, aim: Aim<'_>) {
         let radius = self.suited_radius();
         let (structure, document) = (&self.scene.structure, &self.document);
-        let around = Surroundings { structure, document, forward: self.camera.forward(), radius };
+        let size = self.suited_size();
+        let around = Surroundings { structure, document, forward: self.camera.forward(), radius, size };
         let acts = self.tools.click(aim, around);
         self.perform(acts);
     }
 
     fn double_clicked(&mut self, at: Vec2) {
+        if self.tools.kind() == ToolKind::Cage {
+            // The first click has placed a cage: a second one in the same place is not meant.
+            return;
+        }
         if self.tools.kind() != ToolKind::Shape {
             self.clicked(at, self.hand.modifiers);
             return;

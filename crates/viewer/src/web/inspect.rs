@@ -49,6 +49,7 @@ impl Page {
         put(&out, "held", self.scene.header.held.map_or(JsValue::NULL, |id| id.0.into()));
         put(&out, "figures", plain(&self.scene.header.figures));
         put(&out, "surfaces", plain(&self.scene.structure.surfaces));
+        put(&out, "balls", self.described_balls());
         put(&out, "curves", self.described_curves());
         put(&out, "points", self.described_points());
         let arms = self.arms().into_iter().map(|arm| self.on_screen(arm.end));
@@ -103,6 +104,20 @@ impl Page {
         curves.collect()
     }
 
+    /// A ball around each surface, as it is drawn.
+    fn described_balls(&self) -> Array {
+        let spans = self.scene.structure.surfaces.iter();
+        let balls = spans.filter_map(|span| Some((span.id, self.scene.ball_of(span.id)?)));
+        let described = balls.map(|(id, (centre, radius))| {
+            let out = Object::new();
+            put(&out, "id", id.0);
+            put(&out, "centre", triple(centre));
+            put(&out, "radius", radius);
+            JsValue::from(out)
+        });
+        described.collect()
+    }
+
     fn described_camera(&self) -> Object {
         let out = Object::new();
         let pose = self.camera.pose();
@@ -118,21 +133,11 @@ impl Page {
     }
 
     fn described_selection(&self) -> JsValue {
-        match self.selection {
-            Selection::None => JsValue::NULL,
-            Selection::Point(id) => id.to_string().into(),
-            Selection::Curve(id) => id.to_string().into(),
-            Selection::Surface(id) => id.to_string().into(),
-        }
+        named(self.selection)
     }
 
     fn described_hover(&self) -> JsValue {
-        match Selection::of(self.hand.hover.as_ref()) {
-            Selection::None => JsValue::NULL,
-            Selection::Point(id) => id.to_string().into(),
-            Selection::Curve(id) => id.to_string().into(),
-            Selection::Surface(id) => id.to_string().into(),
-        }
+        named(Selection::of(self.hand.hover.as_ref()))
     }
 
     /// What the tool in hand marks in the picture: how many parts are tinted, how many rims and lines are drawn.
@@ -142,6 +147,7 @@ impl Page {
         put(&out, "tinted", number(marks.tinted.len()));
         put(&out, "rims", number(marks.rims.len()));
         put(&out, "lines", number(marks.sketch.len()));
+        put(&out, "parts", number(marks.parts.len()));
         out
     }
 
@@ -151,6 +157,18 @@ impl Page {
             Some(place) => Array::of(&[JsValue::from(place.x), JsValue::from(place.y)]).into(),
             None => JsValue::NULL,
         }
+    }
+}
+
+/// A thing by its name, `null` for nothing.
+fn named(thing: Selection) -> JsValue {
+    match thing {
+        Selection::None => JsValue::NULL,
+        Selection::Point(id) => id.to_string().into(),
+        Selection::Curve(id) => id.to_string().into(),
+        Selection::Surface(id) => id.to_string().into(),
+        Selection::Edge { surface, ends: [a, b] } => format!("edge {}-{} of {surface}", a.0, b.0).into(),
+        Selection::Face { surface, face } => format!("face {face} of {surface}").into(),
     }
 }
 

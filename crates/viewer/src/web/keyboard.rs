@@ -83,7 +83,9 @@ fn is_understood(key: &Key) -> bool {
     match name.as_str() {
         // Tab walks only where there is something to walk through and the canvas has the focus.
         "tab" => key.on_canvas && has_canvas_focus() && has_points(),
-        "escape" | "enter" | "backspace" | "delete" | " " | "home" | "." | "?" | "\\" | "h" | "r" => true,
+        "escape" | "enter" | "backspace" | "delete" | " " | "home" | "." | "?" | "\\" | "h" | "r" | "e" => {
+            true
+        }
         "arrowleft" | "arrowright" | "arrowup" | "arrowdown" => true,
         _ => {
             let is_view = digit(&key.code).is_some_and(|digit| "01357".contains(digit));
@@ -127,6 +129,10 @@ impl Page {
         }
         if let Some(toggle) = Toggle::of_key(self.tools.kind(), &name) {
             self.turn(toggle);
+            return;
+        }
+        if name == "e" && self.tools.kind() == ToolKind::Cage && self.hand.drag.is_none() {
+            self.extrude();
             return;
         }
         if let Some(kind) = ToolKind::of_key(&name).filter(|_| self.hand.drag.is_none()) {
@@ -211,12 +217,21 @@ impl Page {
             document: &self.document,
             forward: self.camera.forward(),
             radius: self.suited_radius(),
+            size: self.suited_size(),
         };
         let acts = self.tools.key(key, around);
         self.perform(acts);
     }
 
     fn nudge(&mut self, arrow: Arrow, far: bool) {
+        if let Some((points, at)) = self.selected_part() {
+            let step = self.grid() * if far { 1.0 } else { 0.1 };
+            let probe = glam::DVec2::new(step, 0.0).as_vec2().x;
+            if let Some(direction) = nudge_direction(&self.camera, at, arrow, probe) {
+                self.request(Request::Edit(Edit::Shift { points, by: direction.as_dvec3() * step }));
+            }
+            return;
+        }
         let Selection::Point(point) = self.selection else {
             self.notices.refusal("Select a control point first: Tab walks through them.");
             return;

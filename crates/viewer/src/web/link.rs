@@ -93,11 +93,11 @@ fn holds(document: &Document) -> String {
     let count = |count: usize, one: &str| {
         if count == 1 { format!("1 {one}") } else { format!("{count} {one}s") }
     };
-    let Document { points, curves, surfaces, .. } = document;
+    let Document { points, curves, surfaces, cages, fills, .. } = document;
     format!(
         "{}, {} and {}",
         count(points.len(), "point"),
         count(curves.len(), "curve"),
-        count(surfaces.len(), "surface")
+        count(surfaces.len() + cages.len() + fills.len(), "surface")
     )
 }

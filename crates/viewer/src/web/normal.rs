@@ -94,7 +94,7 @@ impl Page {
                 given.map(|(normal, at)| (at, normal.as_vec3())).into_iter().collect()
             }
             Selection::Curve(curve) => self.ribbon_directions(curve),
-            Selection::Surface(_) | Selection::None => Vec::new(),
+            _ => Vec::new(),
         }
     }
 }

@@ -30,7 +30,7 @@ impl Page {
                 at.map(|at| ObjectiveOf::Region { surface, at: at.as_dvec3() })
             }
             Selection::Surface(id) => Some(ObjectiveOf::Surface(id)),
-            Selection::Point(_) => None,
+            Selection::Point(_) | Selection::Edge { .. } | Selection::Face { .. } => None,
         };
         if let Some(of) = of {
             self.request(Request::Edit(Edit::Objective { of, objective }));
@@ -51,9 +51,11 @@ impl Page {
             Selection::Surface(id) => {
                 (document.surfaces.get(&id).and_then(|surface| surface.objective), true)
             }
-            Selection::Point(_) => (None, false),
+            Selection::Point(_) | Selection::Edge { .. } | Selection::Face { .. } => (None, false),
         };
-        dom::show(&dom::element("objective-properties"), !matches!(self.selection, Selection::Point(_)));
+        let minimises =
+            matches!(self.selection, Selection::None | Selection::Curve(_)) || self.fair_surface().is_some();
+        dom::show(&dom::element("objective-properties"), minimises);
         let inherited = is_inherited.then_some("As the document");
         show_choice(OWN, own, inherited);
         let region = match self.selection {

@@ -21,6 +21,7 @@ impl Page {
         let kind = self.tools.kind();
         let mut any = kind == ToolKind::Merge;
         dom::show(&dom::element("tube"), any);
+        any |= self.show_cage_option();
         for toggle in Toggle::ALL {
             let button = dom::element(&format!("option-{}", toggle.word()));
             let serves = toggle.serves(kind);

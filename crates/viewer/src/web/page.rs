@@ -10,7 +10,8 @@ use super::port::Port;
 use super::settings::Settings;
 use super::stage::Stage;
 use super::{
-    canvas, commands, density, fields, files, inspect, keyboard, link, objectives, opening, ribbon, stage,
+    cage, canvas, commands, density, fields, files, inspect, keyboard, link, objectives, opening, ribbon,
+    stage,
 };
 use crate::limit::Limit;
 use crate::memory::Memory;
@@ -142,6 +143,7 @@ pub(crate) fn start() {
     fields::listen();
     objectives::listen();
     density::listen();
+    cage::listen();
     legend::listen();
     ribbon::listen();
     files::listen();

@@ -3,7 +3,7 @@
 use super::dom;
 use super::page::Page;
 use crate::tool::{Selection, ToolKind, entry, span};
-use ductile_spec::{CurveRole, PointRole, SurfaceSummary};
+use ductile_spec::{CurveRole, PointRole, SurfaceId, SurfaceKind, SurfaceSummary};
 use wasm_bindgen::JsCast;
 use web_sys::{Element, HtmlElement};
 
@@ -91,7 +91,7 @@ impl Page {
     fn show_cursor(&self) {
         let canvas = dom::element("view");
         let held = self.hand.drag.is_some();
-        let shapes = self.tools.kind() == ToolKind::Shape;
+        let shapes = self.tools.holds();
         let is_over = self.hand.hover.is_some() || self.hand.hover_arm.is_some();
         dom::class(&canvas, "held", held);
         dom::class(&canvas, "over", shapes && !held && is_over);
@@ -214,6 +214,8 @@ impl Page {
             Selection::Point(id) => format!("Point {}", id.0),
             Selection::Curve(id) => format!("Curve {}", id.0),
             Selection::Surface(id) => format!("Surface {}", id.0),
+            Selection::Edge { surface, .. } => format!("Edge of the cage of surface {}", surface.0),
+            Selection::Face { surface, face } => format!("Face {face} of the cage of surface {}", surface.0),
         };
         dom::text(&dom::element("properties-title"), &title);
         dom::show(&dom::element("point-properties"), matches!(self.selection, Selection::Point(_)));
@@ -223,17 +225,25 @@ impl Page {
         };
         let hangs = role.is_some_and(|role| role != PointRole::Free);
         let turns = match self.selection {
-            Selection::Surface(_) => self.summary_shown().is_some_and(|summary| summary.orientable),
+            Selection::Surface(_) if self.fair_surface().is_some() => {
+                self.summary_shown().is_some_and(|summary| summary.orientable)
+            }
             _ => false,
         };
         dom::show(&dom::element("reverse"), turns);
         dom::show(&dom::element("propagate"), turns && structure.surfaces.len() > 1);
-        dom::show(&dom::element("release"), hangs);
-        dom::show(&dom::element("delete"), self.selection != Selection::None && !hangs);
+        let is_of_cage = match self.selection {
+            Selection::Point(id) => self.document.cages_on(id).next().is_some(),
+            Selection::Edge { .. } | Selection::Face { .. } => true,
+            _ => false,
+        };
+        dom::show(&dom::element("release"), hangs && !is_of_cage);
+        dom::show(&dom::element("delete"), self.selection != Selection::None && !hangs && !is_of_cage);
         self.show_tangent();
         self.show_normal();
         self.show_ribbon();
         self.show_extent();
+        self.show_cage();
         let facts = dom::element("facts");
         dom::clear(&facts);
         for (name, value) in self.facts(role) {
@@ -270,15 +280,27 @@ impl Page {
                     ("Points", through.to_string()),
                 ]
             }
+            Selection::Edge { .. } | Selection::Face { .. } => Vec::new(),
             Selection::Surface(_) | Selection::None => self.summary_shown().map(topology).unwrap_or_default(),
         }
+    }
+
+    /// The selected surface, if it is a fair one: exact ones have no mesh of their own and minimise nothing.
+    pub(crate) fn fair_surface(&self) -> Option<SurfaceId> {
+        let Selection::Surface(id) = self.selection else { return None };
+        Some(id).filter(|id| !self.document.kind_of(*id).is_some_and(|kind| kind != SurfaceKind::Fair))
     }
 
     /// The topology that is shown: of the selected surface, or of the only one.
     fn summary_shown(&self) -> Option<&SurfaceSummary> {
         let surfaces = &self.scene.structure.surfaces;
         match (self.selection, surfaces.as_slice()) {
-            (Selection::Surface(id), _) => surfaces.iter().find(|surface| surface.id == id),
+            (
+                Selection::Surface(id)
+                | Selection::Edge { surface: id, .. }
+                | Selection::Face { surface: id, .. },
+                _,
+            ) => surfaces.iter().find(|surface| surface.id == id),
             (_, [only]) => Some(only),
             _ => None,
         }

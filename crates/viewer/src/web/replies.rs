@@ -6,7 +6,7 @@ use super::page::Page;
 use super::port::Answer;
 use crate::schedule::Answered;
 use crate::tool::{Selection, ToolKind};
-use ductile_spec::{Committed, Example, FrameHeader, Grabbed, Refusal, Request, from_text};
+use ductile_spec::{Committed, Example, FrameHeader, GrabTarget, Grabbed, Refusal, Request, from_text};
 use js_sys::Float32Array;
 use wasm_bindgen::JsValue;
 
@@ -139,7 +139,11 @@ impl Page {
     }
 
     fn grabbed(&mut self, grabbed: Grabbed) {
-        self.selection = Selection::Point(grabbed.point);
+        self.selection = match self.hand.drag.map(|drag| drag.target()) {
+            Some(GrabTarget::Edge { surface, ends, .. }) => Selection::Edge { surface, ends },
+            Some(GrabTarget::Face { surface, face, .. }) => Selection::Face { surface, face },
+            _ => Selection::Point(grabbed.point),
+        };
         if let Some(drag) = &mut self.hand.drag {
             drag.set_origin(grabbed.at);
             self.follow_cursor();
@@ -171,6 +175,7 @@ impl Page {
 
     fn committed(&mut self, answered: &Answered, committed: Committed) {
         if let Ok(document) = from_text(&committed.document) {
+            self.selection = self.selection.still_meant(&self.document, &document);
             self.document = document;
         }
         let act = committed.act.clone();
@@ -193,7 +198,8 @@ impl Page {
                 self.selection = Selection::None;
                 self.tools.choose(ToolKind::Shape);
                 // Lengths of one model mean nothing in another.
-                self.tools.options_mut().radius = None;
+                let options = self.tools.options_mut();
+                (options.radius, options.size, options.distance) = (None, None, None);
                 self.fit_legend();
                 if !std::mem::take(&mut self.falling_back) {
                     self.notices.dismiss("opening");

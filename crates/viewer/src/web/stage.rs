@@ -260,7 +260,7 @@ impl Page {
         let mut mark = Highlight {
             hover: self.hand.hover,
             hover_view: self.hand.hover_view,
-            held: self.hand.drag.and(self.scene.header.held),
+            held: self.hand.drag.filter(|drag| !drag.holds_part()).and(self.scene.header.held),
             work_plane: Some(work_plane(self.camera.forward())),
             directions: self.marked_directions(),
             ..Highlight::default()
@@ -269,8 +269,9 @@ impl Page {
             Selection::Point(id) => mark.selected.push(id),
             Selection::Curve(id) => mark.selected_curve = Some(id),
             Selection::Surface(id) => mark.tinted.push(Tinted::Surface(id)),
-            Selection::None => {}
+            Selection::Edge { .. } | Selection::Face { .. } | Selection::None => {}
         }
+        self.mark_cage(&mut mark);
         if self.tools.holds() {
             let held = self.hand.drag.map(|drag| drag.target());
             let is_hot = |arm: &Arm| {
@@ -284,7 +285,10 @@ impl Page {
                 let at = self.hand.cursor.filter(|_| self.hand.hover_view.is_none());
                 mark.ghost.extend(at.and_then(|at| self.place_on_plane(at, self.hand.modifiers)));
             }
-            ToolKind::Shape | ToolKind::Sheet | ToolKind::Point => {}
+            ToolKind::Cage if mark.hover.is_none() && self.hand.drag.is_none() => {
+                self.mark_new_cage(&mut mark)
+            }
+            ToolKind::Shape | ToolKind::Sheet | ToolKind::Point | ToolKind::Cage => {}
             ToolKind::Curve | ToolKind::Draw => self.mark_curve(&mut mark),
             ToolKind::Burnout | ToolKind::Crease | ToolKind::Split => self.mark_region(&mut mark),
             ToolKind::Sweep | ToolKind::Match => self.mark_ties(&mut mark),

@@ -48,7 +48,8 @@ impl Page {
         let Some(stroke) = self.hand.stroke.take() else { return };
         let radius = self.suited_radius();
         let (structure, document) = (&self.scene.structure, &self.document);
-        let around = Surroundings { structure, document, forward: self.camera.forward(), radius };
+        let size = self.suited_size();
+        let around = Surroundings { structure, document, forward: self.camera.forward(), radius, size };
         let acts = self.tools.sketched(&stroke, around);
         self.perform(acts);
     }
@@ -62,7 +63,7 @@ impl Page {
                 let centre = self.scene.ball_of(id).map_or(Vec3::ZERO, |(centre, _)| centre);
                 self.scene.hit_near(id, self.picked_place(id).unwrap_or(centre))
             }
-            Selection::Surface(_) | Selection::None => None,
+            Selection::Surface(_) | Selection::Edge { .. } | Selection::Face { .. } | Selection::None => None,
         };
         let middle = self.camera.viewport() * 0.5;
         let place = self.place_on_plane(middle, Modifiers::default());

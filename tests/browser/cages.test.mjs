@@ -1,0 +1,208 @@
+// Cages in the page: placed, dragged by vertex, edge and face, extruded and split, taken back, sent as a link, imported.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { atRest, choose, distance, documentOf, drawn, point, wide } from "./support/model.mjs";
+import { inspect, open, untilInspect, withPage } from "./support/page.mjs";
+import { drag } from "./support/pointer.mjs";
+
+const context = { permissions: ["clipboard-read", "clipboard-write"] };
+
+/** An empty document with the Cage tool in hand. */
+async function begun(page) {
+  await atRest(page);
+  await choose(page, "file", "new");
+  await atRest(page, ({ points }) => points.length === 0);
+  await page.keyboard.press("q");
+  await untilInspect(page, ({ tool }) => tool === "cage");
+}
+
+/** Places a cage of that form in the middle of the picture. */
+async function place(page, form) {
+  await page.locator("#cage-form").selectOption({ label: form });
+  const { points } = await inspect(page);
+  await page.mouse.click(400, 290);
+  const state = await atRest(page, (now) => now.act === "Cage" && now.points.length > points.length);
+  await page.mouse.move(300, 500);
+  return state;
+}
+
+/** How far a place lies outside of the ball around a surface. */
+function outside(state, at, id = 1) {
+  const { centre, radius } = state.balls.find((ball) => ball.id === id);
+  return distance(centre, at) - radius;
+}
+
+/** Hovers until the page says what is under the pointer. */
+async function hover(page, place, named) {
+  await page.mouse.move(...place);
+  return untilInspect(page, ({ hover }) => named.test(hover ?? ""));
+}
+
+test("a cage is placed, its vertices, faces and edges are dragged and changed, and all of it is taken back", async () => {
+  const session = await open({ viewport: wide, context });
+  try {
+    const { page } = session;
+    await begun(page);
+    const empty = await documentOf(page);
+    const cube = await place(page, "Cube");
+    assert.equal(cube.points.length, 8);
+    assert.deepEqual(cube.surfaces.map(({ kind, summary }) => [kind, summary.euler]), [["Cage", 2]]);
+    await drawn(page);
+
+    // A vertex goes with the hand, and the surface with it, before the hand lets go.
+    const nearest = (state) => state.points.reduce((a, b) => (b.screen[1] + b.at[2] < a.screen[1] + a.at[2] ? b : a));
+    const top = nearest(cube);
+    await hover(page, top.screen, new RegExp(`^point ${top.id}$`));
+    const to = [top.screen[0] + 30, top.screen[1] - 60];
+    await drag(page, top.screen, to, {
+      beforeRelease: async () => {
+        const held = await untilInspect(page, (state) => state.held === top.id && distance(point(state, top.id).screen, to) < 3);
+        const { at } = point(held, top.id);
+        assert.ok(outside(cube, at) > 0.1 * cube.balls[0].radius, "it was pulled out of where the surface was");
+        assert.ok(outside(held, at) < 1e-4, "the surface has come along");
+      },
+    });
+    const pulled = await atRest(page, ({ act }) => act === "Move");
+
+    // A face is marked through the surface over it, selected by a click, and extruded by what is typed.
+    const middle = pulled.points.reduce((sum, { screen }) => [sum[0] + screen[0] / 8, sum[1] + screen[1] / 8], [0, 0]);
+    const over = await hover(page, middle, /^face \d of surface 1$/);
+    assert.equal(over.marked.parts, 1);
+    await page.mouse.click(...middle);
+    const selected = await untilInspect(page, ({ selection }) => selection === over.hover);
+    assert.equal(selected.document, pulled.document, "a click on a face changes nothing");
+    const face = Number(/\d+/.exec(over.hover)[0]);
+    await page.locator("#extrude-distance").fill("0.5");
+    await page.locator("#extrude-distance").press("Enter");
+    await page.locator("#extrude").click();
+    const extruded = await atRest(page, ({ act }) => act === "Extrude");
+    assert.equal(extruded.points.length, 12);
+    assert.equal(extruded.selection, over.hover, "the face stays selected");
+    const corners = (await documentOf(page)).cages[1].faces[face];
+    assert.deepEqual([...corners].sort((a, b) => a - b), [9, 10, 11, 12]);
+
+    // The face goes with the hand as a whole.
+    const held = corners.reduce((sum, id) => point(extruded, id).screen.map((x, k) => sum[k] + x / 4), [0, 0]);
+    await hover(page, held, new RegExp(`^face ${face} of surface 1$`));
+    await drag(page, held, [held[0] - 40, held[1] + 25]);
+    const moved = await atRest(page, (state) => state.act === "Move" && state.document !== extruded.document);
+    const ways = corners.map((id) => point(moved, id).at.map((x, k) => x - point(extruded, id).at[k]));
+    assert.ok(Math.hypot(...ways[0]) > 0.05, "it moved");
+    for (const way of ways) assert.ok(distance(way, ways[0]) < 1e-4, `all corners move alike: ${way} and ${ways[0]}`);
+    assert.equal(moved.selection, over.hover);
+
+    // E extrudes once more, and the buttons divide.
+    await page.mouse.move(300, 500);
+    await page.keyboard.press("e");
+    await atRest(page, ({ act, points }) => act === "Extrude" && points.length === 16);
+    await page.locator("#split-face").click();
+    const split = await atRest(page, ({ act }) => act === "Split face");
+    assert.equal(split.points.length, 17);
+    await drawn(page);
+    const edge = await edgeInSight(page, split);
+    await page.mouse.click(...edge.place);
+    await untilInspect(page, ({ selection }) => selection === edge.name);
+    await page.locator("#split-edge").click();
+    const last = await atRest(page, ({ act }) => act === "Split edge");
+    assert.equal(last.points.length, 18);
+
+    // The link holds it all; what was done can be taken back to nothing, and done again.
+    await page.locator("#link").click();
+    const told = await untilInspect(page, (state) => state.toast?.startsWith("Link copied"));
+    assert.ok(told.toast.includes("18 points, 0 curves and 1 surface"), told.toast);
+    const link = await page.evaluate(() => navigator.clipboard.readText());
+    const friend = await session.visit(link, await session.browser.newContext({ viewport: wide }));
+    const seen = await atRest(friend);
+    assert.equal(seen.document, last.document);
+    assert.deepEqual(seen.balls, last.balls, "the same surface");
+    await friend.close();
+    let acts = 0;
+    for (let state = last; state.undo !== null && state.undo !== "New"; acts += 1) {
+      const before = state.document;
+      await page.keyboard.press("Control+z");
+      state = await atRest(page, ({ document }) => document !== before);
+    }
+    assert.deepEqual(await documentOf(page), empty);
+    for (let k = 0; k < acts; k += 1) {
+      const { document } = await inspect(page);
+      await page.keyboard.press("Control+Shift+z");
+      await atRest(page, (state) => state.document !== document);
+    }
+    assert.equal((await inspect(page)).document, last.document);
+    await page.reload();
+    const reloaded = await atRest(page, ({ points }) => points.length === 18);
+    assert.equal(reloaded.document, last.document);
+    session.assertQuiet();
+  } finally {
+    await session.close();
+  }
+});
+
+/** An edge of the cage whose middle can be pointed at. */
+async function edgeInSight(page, state) {
+  const { faces } = JSON.parse(state.document).cages[1];
+  for (const face of faces) {
+    for (let k = 0; k < face.length; k += 1) {
+      const ends = [face[k], face[(k + 1) % face.length]].sort((a, b) => a - b);
+      const [from, to] = ends.map((id) => point(state, id).screen);
+      const place = [0, 1].map((axis) => (from[axis] + to[axis]) / 2);
+      if (distance(from, to) < 50) continue;
+      await page.mouse.move(...place);
+      await page.waitForTimeout(120);
+      const name = `edge ${ends.join("-")} of surface 1`;
+      if ((await inspect(page)).hover === name) return { name, place };
+    }
+  }
+  return assert.fail("no edge is in sight");
+}
+
+test("the settings of a surface over a cage are chosen in the properties, and bad ones are refused in words", async () => {
+  await withPage({ viewport: wide }, async (page) => {
+    await begun(page);
+    await place(page, "Icosahedron");
+    await page.locator('[data-command="select"][data-subject="surface 1"]').click();
+    await page.locator("#cage-properties").waitFor({ state: "visible" });
+    assert.equal(await page.locator("#mesh-properties").isVisible(), false, "an exact surface has no mesh of its own");
+    await page.locator("#cage-split").selectOption({ label: "Catmull-Clark" });
+    await atRest(page, ({ act }) => act === "Cage settings");
+    await page.locator("#cage-blend").selectOption({ label: "Bump" });
+    await untilInspect(page, ({ document }) => document.includes('"bump":1'));
+    await page.locator("#cage-resolution").fill("6");
+    await page.locator("#cage-resolution").press("Enter");
+    const state = await atRest(page, ({ document }) => document.includes('"resolution":6'));
+    const { settings } = (await documentOf(page)).cages[1];
+    assert.deepEqual(settings, { split: "catmull-clark", blend: { bump: 1 }, resolution: 6 });
+    await page.locator("#cage-split").selectOption({ label: "None" });
+    await untilInspect(page, ({ toast }) => /every face needs 4/.test(toast ?? ""));
+    assert.equal((await inspect(page)).document, state.document);
+    await page.locator("#cage-resolution").fill("6.5");
+    await page.locator("#cage-resolution").press("Enter");
+    assert.match(await page.locator("#number-error").textContent(), /whole number/);
+  });
+});
+
+test("OBJ and PLY files are imported as cages, and what is none is refused with its place", async () => {
+  await withPage({ viewport: wide }, async (page) => {
+    await begun(page);
+    const file = (name, text) => ({ name, mimeType: "", buffer: Buffer.from(text) });
+    const obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0.5\nf 1 2 3 4\n";
+    await page.locator("#file").setInputFiles(file("square.obj", obj));
+    const one = await atRest(page, ({ act }) => act === "Import");
+    assert.deepEqual(one.surfaces.map(({ kind }) => kind), ["Cage"]);
+    const header = "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+    const faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    const numbers = Buffer.alloc(36 + 13);
+    [2, 0, 0, 3, 0, 0, 2, 1, 0.5].forEach((x, k) => numbers.writeFloatLE(x, 4 * k));
+    numbers.writeUInt8(3, 36);
+    [0, 1, 2].forEach((corner, k) => numbers.writeInt32LE(corner, 37 + 4 * k));
+    const ply = { name: "triangle.ply", mimeType: "", buffer: Buffer.concat([Buffer.from(header + faces), numbers]) };
+    await page.locator("#file").setInputFiles(ply);
+    const two = await atRest(page, ({ surfaces }) => surfaces.length === 2);
+    assert.equal(two.points.length, 7);
+    assert.equal(two.undo, "Import");
+    await page.locator("#file").setInputFiles(file("bad.obj", "v 0 0 0\nv 1 one 0\n"));
+    await untilInspect(page, ({ toast }) => /line 2: a coordinate/.test(toast ?? ""));
+    assert.equal((await inspect(page)).document, two.document);
+  });
+});
