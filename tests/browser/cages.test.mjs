@@ -27,6 +27,11 @@ async function place(page, form) {
   return state;
 }
 
+/** The middle of some control points in the picture. */
+function middleOf(state, ids) {
+  return [0, 1].map((axis) => ids.reduce((sum, id) => sum + point(state, id).screen[axis] / ids.length, 0));
+}
+
 /** How far a place lies outside of the ball around a surface. */
 function outside(state, at, id = 1) {
   const { centre, radius } = state.balls.find((ball) => ball.id === id);
@@ -51,28 +56,27 @@ test("a cage is placed, its vertices, faces and edges are dragged and changed, a
     await drawn(page);
 
     // A vertex goes with the hand, and the surface with it, before the hand lets go.
-    const nearest = (state) => state.points.reduce((a, b) => (b.screen[1] + b.at[2] < a.screen[1] + a.at[2] ? b : a));
-    const top = nearest(cube);
+    const toEye = ({ at }) => distance(at, cube.camera.eye);
+    const top = cube.points.reduce((a, b) => (toEye(b) < toEye(a) ? b : a));
     await hover(page, top.screen, new RegExp(`^point ${top.id}$`));
     const to = [top.screen[0] + 30, top.screen[1] - 60];
     await drag(page, top.screen, to, {
       beforeRelease: async () => {
         const held = await untilInspect(page, (state) => state.held === top.id && distance(point(state, top.id).screen, to) < 3);
         const { at } = point(held, top.id);
-        assert.ok(outside(cube, at) > 0.1 * cube.balls[0].radius, "it was pulled out of where the surface was");
+        assert.ok(outside(cube, at) > 0.05 * cube.balls[0].radius, "it was pulled out of where the surface was");
         assert.ok(outside(held, at) < 1e-4, "the surface has come along");
       },
     });
     const pulled = await atRest(page, ({ act }) => act === "Move");
 
     // A face is marked through the surface over it, selected by a click, and extruded by what is typed.
-    const middle = pulled.points.reduce((sum, { screen }) => [sum[0] + screen[0] / 8, sum[1] + screen[1] / 8], [0, 0]);
-    const over = await hover(page, middle, /^face \d of surface 1$/);
+    const { face, middle } = await faceInSight(page, pulled, top.id);
+    const over = await hover(page, middle, new RegExp(`^face ${face} of surface 1$`));
     assert.equal(over.marked.parts, 1);
     await page.mouse.click(...middle);
     const selected = await untilInspect(page, ({ selection }) => selection === over.hover);
     assert.equal(selected.document, pulled.document, "a click on a face changes nothing");
-    const face = Number(/\d+/.exec(over.hover)[0]);
     await page.locator("#extrude-distance").fill("0.5");
     await page.locator("#extrude-distance").press("Enter");
     await page.locator("#extrude").click();
@@ -83,7 +87,7 @@ test("a cage is placed, its vertices, faces and edges are dragged and changed, a
     assert.deepEqual([...corners].sort((a, b) => a - b), [9, 10, 11, 12]);
 
     // The face goes with the hand as a whole.
-    const held = corners.reduce((sum, id) => point(extruded, id).screen.map((x, k) => sum[k] + x / 4), [0, 0]);
+    const held = middleOf(extruded, corners);
     await hover(page, held, new RegExp(`^face ${face} of surface 1$`));
     await drag(page, held, [held[0] - 40, held[1] + 25]);
     const moved = await atRest(page, (state) => state.act === "Move" && state.document !== extruded.document);
@@ -139,6 +143,19 @@ test("a cage is placed, its vertices, faces and edges are dragged and changed, a
   }
 });
 
+/** A face of the cage at a vertex that can be pointed at in its middle. */
+async function faceInSight(page, state, vertex) {
+  const { faces } = JSON.parse(state.document).cages[1];
+  for (const [face, corners] of faces.entries()) {
+    if (!corners.includes(vertex)) continue;
+    const middle = middleOf(state, corners);
+    await page.mouse.move(...middle);
+    await drawn(page);
+    if ((await inspect(page)).hover === `face ${face} of surface 1`) return { face, middle };
+  }
+  return assert.fail("no face is in sight");
+}
+
 /** An edge of the cage whose middle can be pointed at. */
 async function edgeInSight(page, state) {
   const { faces } = JSON.parse(state.document).cages[1];
@@ -149,7 +166,7 @@ async function edgeInSight(page, state) {
       const place = [0, 1].map((axis) => (from[axis] + to[axis]) / 2);
       if (distance(from, to) < 50) continue;
       await page.mouse.move(...place);
-      await page.waitForTimeout(120);
+      await drawn(page);
       const name = `edge ${ends.join("-")} of surface 1`;
       if ((await inspect(page)).hover === name) return { name, place };
     }
