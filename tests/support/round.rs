@@ -81,7 +81,7 @@ impl Round {
                 self.resume();
                 None
             }
-            Request::Export(_) | Request::Describe | Request::Meet { .. } => {
+            Request::Export(_) | Request::Describe | Request::Meet { .. } | Request::Reach { .. } => {
                 let reply = self.bench.send(request.clone());
                 self.is_as(&before);
                 reply.refused.map(|refusal| refusal.reason)

@@ -74,6 +74,11 @@ fn request(dice: &mut Dice, model: &Model) -> Request {
         5 => Request::Step(Step { drag: None, iterations: [0, 1, 3, u32::MAX][dice.below(4)] }),
         6..=7 => Request::Drop,
         8 => Request::Cancel,
+        9 if dice.coin() => {
+            let shape = model.surfaces.get(&surface).map(|shape| &**shape);
+            let range = if dice.coin() { number(dice) } else { dice.unit() };
+            Request::Reach { surface, at: place(dice, model, shape), range }
+        }
         9 => Request::Meet { first: surface, second: dice.pick(&surfaces).unwrap_or(SurfaceId(99)) },
         10 => Request::Export(ExportFormat::Obj),
         11 => Request::Describe,

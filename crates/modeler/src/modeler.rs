@@ -17,7 +17,7 @@ use ductile_mesh::Mesh;
 use ductile_mesh::io::obj;
 use ductile_spec::{
     Committed, Document, Edit, ExportFormat, Exported, FrameHeader, GrabTarget, Grabbed, Meeting, Pulled,
-    Refusal, Reply, Request, Resume, Step, SurfaceId, from_fragment, from_text, to_compact_text,
+    Reach, Refusal, Reply, Request, Resume, Step, SurfaceId, from_fragment, from_text, to_compact_text,
 };
 
 /// The modeler behind the page, the command line and the tests.
@@ -53,6 +53,7 @@ struct Outcome {
     pulled: Option<Pulled>,
     exported: Option<Exported>,
     meeting: Option<Meeting>,
+    reach: Option<Reach>,
 }
 
 impl Modeler {
@@ -97,6 +98,7 @@ impl Modeler {
                 reply.pulled = outcome.pulled;
                 reply.exported = outcome.exported;
                 reply.meeting = outcome.meeting;
+                reply.reach = outcome.reach;
             }
             Err(error) => {
                 let reason = error.of_kind(&self.model.document, act).to_string();
@@ -145,6 +147,10 @@ impl Modeler {
             Request::Meet { first, second } => {
                 let lines = operation::meeting(&self.model, first, second)?;
                 Ok(Outcome { meeting: Some(Meeting { first, second, lines }), ..Outcome::default() })
+            }
+            Request::Reach { surface, at, range } => {
+                let segments = self.displacer.reach((&self.model, &self.relaxer), surface, at, range)?;
+                Ok(Outcome { reach: Some(Reach { surface, segments }), ..Outcome::default() })
             }
             Request::Describe => {
                 self.describe = true;
@@ -416,6 +422,7 @@ fn label(request: &Request) -> &'static str {
         Request::Redo => "Redo",
         Request::Export(_) => "Export",
         Request::Meet { .. } => "Meet",
+        Request::Reach { .. } => "Reach",
         Request::Describe => "Describe",
     }
 }

@@ -43,7 +43,7 @@ pub use frame::{
 };
 pub use id::{CurveId, PointId, SurfaceId};
 pub use protocol::{
-    Committed, ExportFormat, Exported, Grabbed, ImportFormat, Meeting, MeetingLine, Pulled, Refusal,
+    Committed, ExportFormat, Exported, Grabbed, ImportFormat, Meeting, MeetingLine, Pulled, Reach, Refusal,
     Remembered, Reply, Request, Resume, Step, TRAP,
 };
 pub use share::{FRAGMENT_KEY, LinkError, MAX_LINK_BYTES, from_fragment, to_fragment};

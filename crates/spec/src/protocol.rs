@@ -65,6 +65,15 @@ pub enum Request {
         /// Another one.
         second: SurfaceId,
     },
+    /// Asks how far a displacement would reach. Changes nothing.
+    Reach {
+        /// Of which surface.
+        surface: SurfaceId,
+        /// Where its foot would be, on the surface as it is shown.
+        at: DVec3,
+        /// Its range.
+        range: f64,
+    },
     /// Asks for the structure and the document anew, for a page that has just connected.
     Describe,
 }
@@ -146,6 +155,8 @@ pub struct Reply {
     pub exported: Option<Exported>,
     /// Where two surfaces meet, if that was asked.
     pub meeting: Option<Meeting>,
+    /// How far a displacement would reach, if that was asked.
+    pub reach: Option<Reach>,
 }
 
 /// The document after an act.
@@ -190,6 +201,15 @@ pub struct Refusal {
     pub act: String,
     /// Why it cannot be done and what would help.
     pub reason: String,
+}
+
+/// How far a displacement would reach.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Reach {
+    /// Of which surface.
+    pub surface: SurfaceId,
+    /// Segments of the line on what is shown where it would move the surface by half of what it moves its foot.
+    pub segments: Vec<[DVec3; 2]>,
 }
 
 /// Where two surfaces run through one another now.

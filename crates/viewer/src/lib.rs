@@ -23,6 +23,7 @@ mod painter;
 mod pick;
 mod pipeline;
 mod point_pass;
+mod reaching;
 mod rim;
 #[cfg(test)]
 mod sample;
@@ -47,5 +48,6 @@ pub use gpu::{GpuError, Renderer};
 pub use look::{Highlight, Look, NetPart, Shading, Slices, Tinted, WorkPlane};
 pub use meeting::Meetings;
 pub use pick::{Hit, Wanted, pick, pick_among};
+pub use reaching::Reaching;
 pub use rim::{RimHit, Rims};
 pub use scene::{Scene, SceneError};

@@ -31,6 +31,8 @@ pub enum Answered {
     Step,
     /// Where two surfaces meet.
     Meeting,
+    /// How far a displacement would reach.
+    Reach,
     /// Anything else.
     Other,
 }
@@ -155,6 +157,7 @@ impl Schedule {
                 Answered::Step
             }
             Request::Meet { .. } => Answered::Meeting,
+            Request::Reach { .. } => Answered::Reach,
             Request::Export(_) | Request::Describe => Answered::Other,
         })
     }
@@ -252,6 +255,7 @@ pub fn label(request: &Request) -> &'static str {
         Request::Redo => "Redo",
         Request::Export(_) => "Export",
         Request::Meet { .. } => "Meet",
+        Request::Reach { .. } => "Reach",
         Request::Describe => "Describe",
     }
 }

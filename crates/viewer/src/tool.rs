@@ -171,7 +171,7 @@ impl Toolbox {
     /// Whether a drag takes hold of things, rather than turning the view.
     #[must_use]
     pub fn holds(&self) -> bool {
-        matches!(self.kind, ToolKind::Shape | ToolKind::Cage)
+        matches!(self.kind, ToolKind::Shape | ToolKind::Cage | ToolKind::Displace)
     }
 
     /// What the tool wants next, in one line.
@@ -183,6 +183,9 @@ impl Toolbox {
                 "Click where a control point should be: on a surface, on a curve, or in the work plane."
             }
             ToolKind::Curve | ToolKind::Draw => self.path_hint(),
+            ToolKind::Displace => {
+                "Drag a surface from inside. Wheel, [ ]: how far around. Shift-click: a place that stays."
+            }
             ToolKind::Sheet => "Click a closed curve to skin it.",
             ToolKind::Burnout => "Click a region to burn it out. The curves around it stay.",
             ToolKind::Crease => {
@@ -201,7 +204,7 @@ impl Toolbox {
     /// A click.
     pub fn click(&mut self, aim: Aim<'_>, around: Surroundings<'_>) -> Vec<Act> {
         match self.kind {
-            ToolKind::Shape => vec![Act::Select(Selection::of(aim.hit))],
+            ToolKind::Shape | ToolKind::Displace => vec![Act::Select(Selection::of(aim.hit))],
             ToolKind::Point => place_point(aim),
             ToolKind::Curve | ToolKind::Draw => self.place_corner(aim, around),
             ToolKind::Sheet => match closed_curve(aim.hit, around.structure) {

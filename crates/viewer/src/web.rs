@@ -13,6 +13,8 @@ mod commands;
 #[cfg(target_arch = "wasm32")]
 mod density;
 #[cfg(target_arch = "wasm32")]
+mod displace;
+#[cfg(target_arch = "wasm32")]
 mod dom;
 #[cfg(target_arch = "wasm32")]
 mod extent;

@@ -13,6 +13,7 @@ mod footing;
 mod normal;
 mod overlay;
 mod places;
+mod reach;
 mod request;
 #[cfg(test)]
 mod tests;
@@ -33,6 +34,7 @@ pub(crate) use places::{Footprints, give_back};
 pub(crate) struct Displacer {
     overlays: BTreeMap<SurfaceId, Overlay>,
     revisions: u64,
+    probe: Option<reach::Probe>,
 }
 
 impl Displacer {
@@ -49,6 +51,7 @@ impl Displacer {
     /// Forgets everything: the model is another one.
     pub(crate) fn forget(&mut self) {
         self.overlays.clear();
+        self.probe = None;
     }
 
     /// Brings everything up to the model. At rest, and only then, blends are reckoned from the shapes as they are.

@@ -268,6 +268,11 @@ impl Overlay {
         self.asked.clone_from(asked);
     }
 
+    /// The blend that an item would have.
+    pub(super) fn trial(&mut self, item: ductile_patch::Item) -> Result<Vec<f64>, DisplacementError> {
+        self.solver.trial(item)
+    }
+
     /// The displacements that cannot be met, by index, and why.
     pub(super) fn failures(&self) -> &[(usize, DisplacementError)] {
         &self.failures
@@ -325,7 +330,7 @@ impl Overlay {
 }
 
 /// The vertices that stay: around the places of pins and along curves.
-fn pinned(asked: &Displaced, base: &Base<'_>, anchors: &[Spot]) -> Vec<usize> {
+pub(super) fn pinned(asked: &Displaced, base: &Base<'_>, anchors: &[Spot]) -> Vec<usize> {
     let mut held = Vec::new();
     let mut anchors = anchors.iter();
     for pin in &asked.blending.pins {

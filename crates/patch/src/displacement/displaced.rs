@@ -95,6 +95,15 @@ impl Displacements {
         outcome.map(|()| index)
     }
 
+    /// The blend that an item would have by itself, which is not added.
+    ///
+    /// # Errors
+    /// As [`Self::add`].
+    pub fn trial(&mut self, item: Item) -> Result<Vec<f64>, DisplacementError> {
+        let index = self.reaches.len();
+        self.reach(item, index).map(|reach| reach.blend)
+    }
+
     /// Takes an item away; those after it move up.
     ///
     /// # Errors

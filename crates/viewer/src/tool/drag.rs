@@ -73,7 +73,8 @@ impl Drag {
     }
 
     /// Takes hold of a place as it is.
-    pub(super) fn of_place(target: GrabTarget, anchor: Vec3, press: Vec2) -> Self {
+    #[must_use]
+    pub fn of_place(target: GrabTarget, anchor: Vec3, press: Vec2) -> Self {
         Self { target, anchor, origin: anchor.as_dvec3(), normal: None, press, lock: None }
     }
 

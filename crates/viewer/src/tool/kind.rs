@@ -35,13 +35,15 @@ pub enum ToolKind {
     Trim,
     /// Places cages and takes hold of their parts.
     Cage,
+    /// Pulls the inside of surfaces.
+    Displace,
     /// Lets a curve grow or shrink to the size of another; a button of the properties, not of the bar.
     Match,
 }
 
 impl ToolKind {
     /// Those of the bar.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Shape,
         Self::Point,
         Self::Curve,
@@ -55,6 +57,7 @@ impl ToolKind {
         Self::Merge,
         Self::Trim,
         Self::Cage,
+        Self::Displace,
     ];
 
     /// Its word in the page: `tool-shape` is its button.
@@ -74,6 +77,7 @@ impl ToolKind {
             Self::Merge => "merge",
             Self::Trim => "trim",
             Self::Cage => "cage",
+            Self::Displace => "displace",
             Self::Match => "match",
         }
     }
@@ -95,6 +99,7 @@ impl ToolKind {
             "m" => Some(Self::Merge),
             "t" => Some(Self::Trim),
             "q" => Some(Self::Cage),
+            "e" => Some(Self::Displace),
             _ => None,
         }
     }
@@ -108,7 +113,7 @@ impl ToolKind {
     /// Whether it takes curves.
     #[must_use]
     pub fn wants_curves(self) -> bool {
-        !matches!(self, Self::Burnout | Self::Glue | Self::Merge | Self::Trim | Self::Cage)
+        !matches!(self, Self::Burnout | Self::Glue | Self::Merge | Self::Trim | Self::Cage | Self::Displace)
     }
 
     /// Whether it takes surfaces, or places on them.

@@ -22,6 +22,8 @@ pub struct Options {
     pub size: Option<f64>,
     /// How far a face is extruded, in model units; what suits the face while nobody chose.
     pub distance: Option<f64>,
+    /// Displace: how far around, as a displacement says it.
+    pub range: f64,
 }
 
 impl Default for Options {
@@ -35,6 +37,7 @@ impl Default for Options {
             form: CageForm::default(),
             size: None,
             distance: None,
+            range: 0.0,
         }
     }
 }

@@ -127,7 +127,7 @@ impl Page {
             self.choose_theme(theme);
         } else if let Some(name) = command.strip_prefix("view-") {
             self.look_from(name);
-        } else if !self.document_command(command, subject) {
+        } else if !self.displacement_command(command, subject) && !self.document_command(command, subject) {
             self.page_command(command, subject);
         }
         self.refresh();
@@ -220,6 +220,9 @@ impl Page {
 
     /// Deletes what is selected, or releases it if something hangs on it.
     pub(crate) fn delete_selected(&mut self) {
+        if self.tools.kind() == ToolKind::Displace && self.erase_chosen() {
+            return;
+        }
         match self.selection.removal(&self.scene.structure) {
             None if matches!(self.selection, Selection::Edge { .. }) => {
                 self.notices.refusal("An edge cannot be deleted. Delete a face beside it.");

@@ -2,6 +2,7 @@
 
 use super::cage;
 use super::density;
+use super::displace;
 use super::dom;
 use super::page::{Page, act};
 use super::{extent, legend, normal, options, ribbon, tangent};
@@ -31,6 +32,10 @@ pub(crate) fn listen() {
     for id in legend::FIELDS {
         on_field(id, move |page, text| page.typed_legend(id, text));
     }
+    for (index, id) in displace::FIELDS.into_iter().enumerate() {
+        on_field(id, move |page, text| page.typed_displacement(index, text));
+    }
+    on_field(displace::RANGE, Page::typed_range);
     on_field(ribbon::FIELD, Page::typed_ribbon);
     on_field(extent::FIELD, Page::typed_loop_radius);
     on_field(options::FIELD, Page::typed_tube_radius);
@@ -89,7 +94,8 @@ impl Page {
             .chain(normal::FIELDS)
             .chain(density::FIELDS)
             .chain(cage::FIELDS)
-            .chain([ribbon::FIELD, extent::FIELD, options::FIELD])
+            .chain(displace::FIELDS)
+            .chain([ribbon::FIELD, extent::FIELD, options::FIELD, displace::RANGE])
         {
             self.fill_field(&dom::element_as(id), false);
         }
@@ -117,6 +123,8 @@ impl Page {
             }
             (field, _) if legend::FIELDS.contains(&field) => self.legend_text(field),
             (options::FIELD, _) => self.tube_radius_text(),
+            (displace::RANGE, _) => number::show(self.tools.options().range),
+            (field, _) if displace::FIELDS.contains(&field) => self.displacement_text(field),
             (extent::FIELD, Selection::Curve(_)) => self.loop_radius_text(),
             (ribbon::FIELD, Selection::Curve(_)) => self.ribbon_text(),
             (_, Selection::Point(point)) => {

@@ -56,7 +56,11 @@ impl Page {
         self.hand.cursor = Some(pointer.at);
         self.hand.modifiers = pointer.modifiers;
         let on_triad = self.shows_triad() && self.camera.triad_hit(pointer.at).is_some();
-        let is_thing = || self.arm_at(pointer.at).is_some() || self.thing_at(pointer.at).is_some();
+        let is_thing = || {
+            self.arm_at(pointer.at).is_some()
+                || self.foot_at(pointer.at).is_some()
+                || self.thing_at(pointer.at).is_some()
+        };
         let draws = || self.tools.sketches() && self.thing_at(pointer.at).is_some();
         let holds = !on_triad && (draws() || self.tools.holds() && is_thing());
         let gestures = self.hand.recogniser.down(pointer, button, holds);
@@ -93,7 +97,7 @@ impl Page {
 
     /// The wheel turns.
     pub(crate) fn wheel(&mut self, at: Vec2, by: Vec2, modifiers: Modifiers) {
-        if !self.turn_radius(by, modifiers) {
+        if !self.turn_radius(by, modifiers) && !self.turn_range(by, modifiers) {
             self.run(Recogniser::wheel(at, by, modifiers));
         }
     }
@@ -200,6 +204,9 @@ impl Page {
             // A handle is there to be dragged; what lies below it is not meant.
             return;
         }
+        if self.click_displacing(at, modifiers) {
+            return;
+        }
         let hit = self.thing_at(at);
         self.picked = match hit {
             Some(Hit::Surface { id, at, .. }) => Some((id, at)),
@@ -275,6 +282,9 @@ impl Page {
         if self.tools.sketches() {
             self.hand.stroke = Some(Stroke::default());
             self.sketch(at);
+            return;
+        }
+        if self.grab_foot(at) {
             return;
         }
         if let Some(arm) = self.arm_at(at) {
@@ -380,5 +390,6 @@ impl Page {
             self.hand.hover_rim = self.rim_at(at);
         }
         self.ask_meeting();
+        self.ask_reach();
     }
 }

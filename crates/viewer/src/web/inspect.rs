@@ -54,6 +54,7 @@ impl Page {
         put(&out, "points", self.described_points());
         let arms = self.arms().into_iter().map(|arm| self.on_screen(arm.end));
         put(&out, "handles", arms.collect::<Array>());
+        put(&out, "feet", self.described_feet());
         put(&out, "camera", self.described_camera());
         put(&out, "selection", self.described_selection());
         put(&out, "hover", self.described_hover());
@@ -75,6 +76,18 @@ impl Page {
         put(&out, "restarts", self.restart_count);
         put(&out, "stored", !self.journal.is_refused);
         out.into()
+    }
+
+    fn described_feet(&self) -> Array {
+        let feet = self.all_feet().into_iter().map(|foot| {
+            let out = Object::new();
+            put(&out, "surface", foot.surface.0);
+            put(&out, "number", number(foot.number));
+            put(&out, "at", triple(foot.at));
+            put(&out, "screen", self.on_screen(foot.at));
+            JsValue::from(out)
+        });
+        feet.collect()
     }
 
     fn described_points(&self) -> Array {

@@ -83,9 +83,8 @@ fn is_understood(key: &Key) -> bool {
     match name.as_str() {
         // Tab walks only where there is something to walk through and the canvas has the focus.
         "tab" => key.on_canvas && has_canvas_focus() && has_points(),
-        "escape" | "enter" | "backspace" | "delete" | " " | "home" | "." | "?" | "\\" | "h" | "r" | "e" => {
-            true
-        }
+        "escape" | "enter" | "backspace" | "delete" | " " | "home" | "." | "?" | "\\" | "h" | "r" | "e"
+        | "[" | "]" => true,
         "arrowleft" | "arrowright" | "arrowup" | "arrowdown" => true,
         _ => {
             let is_view = digit(&key.code).is_some_and(|digit| "01357".contains(digit));
@@ -137,6 +136,9 @@ impl Page {
         }
         if let Some(kind) = ToolKind::of_key(&name).filter(|_| self.hand.drag.is_none()) {
             self.choose_tool(kind);
+            return;
+        }
+        if self.range_key(&name) {
             return;
         }
         self.plain_key(&name, key);

@@ -19,8 +19,9 @@ impl Page {
     /// Shows the choices of the tool in hand.
     pub(crate) fn show_options(&self) {
         let kind = self.tools.kind();
-        let mut any = kind == ToolKind::Merge;
-        dom::show(&dom::element("tube"), any);
+        let mut any = matches!(kind, ToolKind::Merge | ToolKind::Displace);
+        dom::show(&dom::element("tube"), kind == ToolKind::Merge);
+        dom::show(&dom::element("reach"), kind == ToolKind::Displace);
         any |= self.show_cage_option();
         for toggle in Toggle::ALL {
             let button = dom::element(&format!("option-{}", toggle.word()));

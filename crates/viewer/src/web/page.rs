@@ -10,14 +10,14 @@ use super::port::Port;
 use super::settings::Settings;
 use super::stage::Stage;
 use super::{
-    cage, canvas, commands, density, fields, files, inspect, keyboard, link, objectives, opening, ribbon,
-    stage,
+    cage, canvas, commands, density, displace, fields, files, inspect, keyboard, link, objectives, opening,
+    ribbon, stage,
 };
 use crate::limit::Limit;
 use crate::memory::Memory;
 use crate::schedule::Schedule;
 use crate::tool::{Selection, Toolbox};
-use crate::{Camera, Meetings, Rims, Scene};
+use crate::{Camera, Meetings, Reaching, Rims, Scene};
 use ductile_spec::{Committed, Document, Request, SurfaceId};
 use glam::Vec3;
 use std::cell::RefCell;
@@ -50,6 +50,10 @@ pub(crate) struct Page {
     pub(crate) rims: Rims,
     /// Where the surfaces meet that a tool points at.
     pub(crate) meetings: Meetings,
+    /// How far a displacement would reach.
+    pub(crate) reaching: Reaching,
+    /// The displacement that is chosen, by surface and number.
+    pub(crate) chosen_foot: Option<(SurfaceId, usize)>,
     pub(crate) schedule: Schedule,
     pub(crate) port: Port,
     pub(crate) restarts: Limit,
@@ -115,6 +119,8 @@ pub(crate) fn start() {
         hand: Hand::default(),
         rims: Rims::default(),
         meetings: Meetings::default(),
+        reaching: Reaching::default(),
+        chosen_foot: None,
         schedule: Schedule::default(),
         port: Port::default(),
         restarts: Limit::new(MOST_RETRIES, RETRY_MILLISECONDS),
@@ -144,6 +150,7 @@ pub(crate) fn start() {
     objectives::listen();
     density::listen();
     cage::listen();
+    displace::listen();
     legend::listen();
     ribbon::listen();
     files::listen();

@@ -252,6 +252,7 @@ impl Page {
         self.show_fields();
         self.show_objectives();
         self.show_density();
+        self.show_displacements();
     }
 
     fn facts(&self, role: Option<PointRole>) -> Vec<(&'static str, String)> {

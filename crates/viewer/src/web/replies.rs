@@ -64,8 +64,11 @@ impl Page {
         if answered == Answered::Meeting {
             // Not to be told is no refusal of anything yet: the act itself will say why.
             self.meetings.came(reply.meeting);
+        } else if answered == Answered::Reach {
+            self.reaching.came(reply.reach);
         } else {
             self.meetings.moved();
+            self.reaching.moved();
         }
         let frame = reply.frame.clone();
         let was_settled = self.scene.header.settled;
@@ -82,7 +85,12 @@ impl Page {
         if let Some(grabbed) = reply.grabbed {
             self.grabbed(grabbed);
         }
-        if let Some(refusal) = reply.refused.filter(|_| answered != Answered::Meeting) {
+        if let Some(pulled) = reply.pulled {
+            self.pulled(pulled);
+        }
+        if let Some(refusal) =
+            reply.refused.filter(|_| !matches!(answered, Answered::Meeting | Answered::Reach))
+        {
             self.refused(&answered, &refusal);
         }
         if let Some(committed) = reply.committed {

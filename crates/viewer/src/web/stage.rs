@@ -294,6 +294,7 @@ impl Page {
             ToolKind::Sweep | ToolKind::Match => self.mark_ties(&mut mark),
             ToolKind::Glue => self.mark_rims(&mut mark),
             ToolKind::Merge | ToolKind::Trim => self.mark_places(&mut mark),
+            ToolKind::Displace => self.mark_displacements(&mut mark),
         }
         mark
     }

@@ -1,0 +1,93 @@
+//! How far a displacement would reach that is not there yet: the line along which its blend would be 1/2, on what is shown.
+
+use super::Displacer;
+use super::base::Base;
+use super::footing::Spot;
+use super::overlay::pinned;
+use super::request::{item_at, settings};
+use crate::error::ModelError;
+use crate::model::Model;
+use crate::relax::Relaxer;
+use ductile_patch::{DisplacementError, Displacements, Domain};
+use ductile_spec::{Blending, Displaced, Displacement, SurfaceId};
+use glam::DVec3;
+
+/// Where a blend counts as reached.
+const HALF: f64 = 0.5;
+
+/// The surface that was asked about last, factorised, if it is not displaced.
+#[derive(Clone, Debug)]
+pub(super) struct Probe {
+    id: SurfaceId,
+    revision: u64,
+    blending: Blending,
+    solver: Displacements,
+}
+
+impl Displacer {
+    /// Segments of the line to which a displacement at a place of what is shown would reach.
+    ///
+    /// # Errors
+    /// Why the place cannot be displaced.
+    pub(crate) fn reach(
+        &mut self,
+        (model, relaxer): (&Model, &Relaxer),
+        id: SurfaceId,
+        at: DVec3,
+        range: f64,
+    ) -> Result<Vec<[DVec3; 2]>, ModelError> {
+        let base = Base::of(model, relaxer, id).ok_or(ModelError::NoSurface(id))?;
+        let asked = model.document.displacements.get(&id).cloned().unwrap_or_default();
+        let refuse = |reason| ModelError::Displacement { surface: id, number: asked.items.len() + 1, reason };
+        let nowhere = || refuse(DisplacementError::BadPosition(0));
+        let below = self.on_base(id, at);
+        let spot = Spot::nearest(base.positions, base.triangles, below).ok_or_else(nowhere)?;
+        let displacement = Displacement { range, ..Displacement::new(below, DVec3::ZERO) };
+        let item = item_at(&displacement, &spot).map_err(refuse)?;
+        if let Some(overlay) = self.overlays.get_mut(&id).filter(|overlay| overlay.is_on(&base)) {
+            let blend = overlay.trial(item).map_err(refuse)?;
+            return Ok(line(&overlay.positions()[..blend.len()], base.triangles, &blend));
+        }
+        let blend = self.probe(id, &asked, &base).and_then(|solver| solver.trial(item)).map_err(refuse)?;
+        Ok(line(base.positions, base.triangles, &blend))
+    }
+
+    fn probe(
+        &mut self,
+        id: SurfaceId,
+        asked: &Displaced,
+        base: &Base<'_>,
+    ) -> Result<&mut Displacements, DisplacementError> {
+        let is_known = |probe: &Probe| {
+            (probe.id, probe.revision) == (id, base.revision) && probe.blending == asked.blending
+        };
+        let known = match self.probe.take().filter(is_known) {
+            Some(probe) => probe,
+            None => {
+                let places: Vec<DVec3> = asked.clone().places_mut().map(|at| *at).collect();
+                let feet = asked.items.iter().map(|item| item.foot.places().len()).sum();
+                let stand = |at: &DVec3| Spot::nearest(base.positions, base.triangles, *at);
+                let pins: Vec<Spot> =
+                    places.get(feet..).unwrap_or_default().iter().filter_map(stand).collect();
+                let domain = Domain::new(base.positions, base.triangles)?;
+                let domain = domain.with_pins(&pinned(asked, base, &pins))?;
+                let solver = Displacements::new(domain, settings(&asked.blending))?;
+                Probe { id, revision: base.revision, blending: asked.blending.clone(), solver }
+            }
+        };
+        Ok(&mut self.probe.insert(known).solver)
+    }
+}
+
+/// The line where values at vertices are a half, by linear interpolation.
+fn line(positions: &[DVec3], triangles: &[[u32; 3]], values: &[f64]) -> Vec<[DVec3; 2]> {
+    let cut = |triangle: &[u32; 3]| {
+        let sides = [[0, 1], [1, 2], [2, 0]].map(|side| side.map(|k: usize| triangle[k] as usize));
+        let mut ends = sides.into_iter().filter_map(|[a, b]| {
+            let (from, to) = (values[a] - HALF, values[b] - HALF);
+            ((from < 0.0) != (to < 0.0)).then(|| positions[a].lerp(positions[b], from / (from - to)))
+        });
+        Some([ends.next()?, ends.next()?])
+    };
+    triangles.iter().filter_map(cut).collect()
+}
