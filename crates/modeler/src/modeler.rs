@@ -215,8 +215,11 @@ impl Modeler {
         let before = self.model.clone();
         match act(self, &before) {
             Ok(()) => {
+                // What lies over the shapes gives them no reason to move.
+                if !displacing::is_over_shapes(&before.document, &self.model.document) {
+                    self.relaxer.wake();
+                }
                 self.history.record(name, before);
-                self.relaxer.wake();
                 Ok(Outcome { committed: Some(name.to_owned()), ..Outcome::default() })
             }
             Err(error) => {

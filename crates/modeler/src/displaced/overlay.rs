@@ -263,6 +263,13 @@ impl Overlay {
         self.anchors.iter().map(|spot| spot.of(positions)).collect()
     }
 
+    /// Whether what is asked for differs in places only.
+    pub(super) fn is_alike(&self, asked: &Displaced) -> bool {
+        let (mut own, mut other) = (self.asked.clone(), asked.clone());
+        own.places_mut().zip(other.places_mut()).for_each(|(own, other)| *own = *other);
+        own == *asked
+    }
+
     /// The document has other places for what stands here: the act that moved the base carried them along.
     pub(super) fn adopt(&mut self, asked: &Displaced) {
         self.asked.clone_from(asked);

@@ -61,6 +61,18 @@ impl Displacer {
         Ok(())
     }
 
+    /// An act has carried places of the document along: what stands there goes on where the surface carries it, until
+    /// that is at rest.
+    pub(crate) fn adopt(&mut self, model: &Model) {
+        for (id, displaced) in &model.document.displacements {
+            if let Some(overlay) = self.overlays.get_mut(id)
+                && overlay.is_alike(displaced)
+            {
+                overlay.adopt(displaced);
+            }
+        }
+    }
+
     fn move_places(&mut self, model: &mut Model, id: SurfaceId, moves: &[DVec3]) -> Result<(), ModelError> {
         let Some(mut displaced) = model.document.displacements.get(&id).cloned() else { return Ok(()) };
         for (at, by) in displaced.places_mut().zip(moves) {

@@ -8,7 +8,7 @@ use crate::model::Model;
 use crate::operation;
 use crate::patch;
 use crate::pull::Pull;
-use ductile_spec::{Edit, GrabTarget, Pulled};
+use ductile_spec::{Document, Edit, GrabTarget, Pulled};
 use glam::DVec3;
 
 impl Modeler {
@@ -23,6 +23,7 @@ impl Modeler {
         let taken = std::mem::take(&mut self.model.document_mut().displacements);
         operation::apply(&mut self.model, &self.relaxer, &mut self.displacer, &edit)?;
         give_back(&mut self.model, before, taken)?;
+        self.displacer.adopt(&self.model);
         patch::follow(&mut self.model);
         self.displacer.carry_exact(&mut self.model, &self.relaxer, &footprints)
     }
@@ -51,7 +52,6 @@ impl Modeler {
             let at = pull.at(&self.model, &self.displacer).unwrap_or(DVec3::ZERO);
             let pulled = Pulled { surface: pull.surface, number: pull.index + 1, at };
             self.pull = Some(pull);
-            self.relaxer.wake();
             Outcome { pulled: Some(pulled), ..Outcome::default() }
         }))
     }
@@ -65,13 +65,12 @@ impl Modeler {
         }
     }
 
-    /// Ends the drag of a foot and keeps its result.
+    /// Ends the drag of a foot and keeps its result. The shapes below have no reason to move.
     pub(super) fn end_pull(&mut self, pull: Pull) -> Result<Outcome, ModelError> {
         let done = if pull.has_moved { pull.finish(&mut self.model).map(Some) } else { Ok(None) };
         match done {
             Ok(Some(act)) if self.model.document != pull.before.document => {
                 self.history.record(act, pull.before);
-                self.relaxer.wake();
                 Ok(Outcome { committed: Some(act.to_owned()), ..Outcome::default() })
             }
             Ok(_) => {
@@ -88,5 +87,14 @@ impl Modeler {
     /// A drag of a control is over: feet stay where the surface carried them.
     pub(super) fn carry_feet(&mut self, footprints: &Footprints) -> Result<(), ModelError> {
         self.displacer.carry(&mut self.model, footprints)
+    }
+}
+
+/// Whether two documents differ in displacements, and in nothing else.
+pub(super) fn is_over_shapes(before: &Document, now: &Document) -> bool {
+    let is_displaced_otherwise = before.displacements != now.displacements;
+    is_displaced_otherwise && {
+        let bare = Document { displacements: now.displacements.clone(), ..before.clone() };
+        bare == *now
     }
 }

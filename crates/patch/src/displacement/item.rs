@@ -46,7 +46,8 @@ impl Item {
     /// [`DisplacementError::CurveCrosses`] for corners that are not different.
     pub fn spot(corners: [u32; 3], shares: [f64; 3], displacement: DVec3) -> Result<Self, DisplacementError> {
         let is_share = |share: &f64| (0.0..=1.0).contains(share);
-        if !shares.iter().all(is_share) || !((shares.iter().sum::<f64>() - 1.0).abs() < 1e-9) {
+        let is_whole = (shares.iter().sum::<f64>() - 1.0).abs() < 1e-9;
+        if !shares.iter().all(is_share) || !is_whole {
             return Err(DisplacementError::BadShares(shares));
         }
         let [a, b, c] = corners.map(|corner| corner as usize);

@@ -228,8 +228,12 @@ impl Page {
             mark.arms.push((foot.at - item.by.as_vec3(), foot.at, self.hand.drag.is_some()));
         }
         let over = self.hand.cursor.and_then(|at| self.foot_at(at)).filter(|_| self.hand.drag.is_none());
-        if over.is_some() {
+        if let Some(over) = over {
             mark.hover = None;
+            let item =
+                self.displaced(over.surface).and_then(|displaced| displaced.items.get(over.number - 1));
+            let by = item.map_or(Vec3::ZERO, |item| item.by.as_vec3());
+            mark.arms.push((over.at - by, over.at, true));
         } else if let Some(Hit::Surface { id, .. }) = mark.hover {
             mark.sketch = self.reaching.lines(id).to_vec();
         }
@@ -337,8 +341,7 @@ impl Page {
         let list = dom::element("displaced-list");
         dom::clear(&list);
         for number in 1..=displaced.items.len() {
-            let button = dom::command_button("", "chip", "choose-displacement");
-            dom::text(&button, &number.to_string());
+            let button = dom::command_button("chip", &number.to_string(), "choose-displacement");
             dom::attribute(&button, "data-subject", &number.to_string());
             dom::attribute(&button, "aria-label", &format!("Displacement {number}"));
             let is_chosen = self.chosen_foot.is_some_and(|(_, chosen)| chosen == number);

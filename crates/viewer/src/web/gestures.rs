@@ -259,7 +259,8 @@ impl Page {
     /// The handles of the selected point; the one that is held ends where the hand is.
     pub(crate) fn arms(&self) -> Vec<Arm> {
         let Selection::Point(point) = self.selection else { return Vec::new() };
-        let Some(foot) = self.scene.point(point).filter(|_| self.settings.look.skeleton) else {
+        let shows = self.settings.look.skeleton && self.tools.kind() != ToolKind::Displace;
+        let Some(foot) = self.scene.point(point).filter(|_| shows) else {
             return Vec::new();
         };
         let arm = |(handle, direction)| {

@@ -1,0 +1,145 @@
+// Displacements by real pointer events: the inside of a surface is pulled, and nothing else gives way.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { assertOnCanvas, atRest, distance, drawn, onBareSurface, picture, pointAway, wide } from "./support/model.mjs";
+import { inspect, open, until, untilInspect, withPage } from "./support/page.mjs";
+import { difference } from "./support/pixels.mjs";
+import { drag } from "./support/pointer.mjs";
+
+const context = { permissions: ["clipboard-read", "clipboard-write"] };
+/** Pixels by which a foot may miss the pointer. */
+const exactly = 2;
+
+const displacedOf = (state) => JSON.parse(state.document).displacements?.[1];
+const foot = (state, number) => state.feet.find((entry) => entry.number === number);
+const value = (page, id, text) =>
+  until(page, ([id, text]) => document.getElementById(id).value === text, [id, text], { timeout: 5000 });
+
+test("a surface is pulled from inside, the foot goes where the hand does, undo and redo are exact", async () => {
+  await withPage({ viewport: wide }, async (page) => {
+    await pointAway(page);
+    const before = await atRest(page);
+    const seen = await picture(page);
+    const [from, to] = onBareSurface(before);
+    await assertOnCanvas(page, from, to);
+    await page.keyboard.press("e");
+    await page.mouse.move(...from);
+    const wider = await untilInspect(page, (state) => state.tool === "displace" && state.marked.lines > 8);
+    await value(page, "reach-range", "0");
+    await page.mouse.wheel(0, 300);
+    await untilInspect(page, ({ marked }) => marked.lines > 4 && marked.lines < wider.marked.lines);
+    await page.keyboard.press("]");
+    await page.locator("#reach-range").fill("0.2");
+    await page.locator("#reach-range").press("Enter");
+    await value(page, "reach-range", "0.2");
+
+    await drag(page, from, to, {
+      async beforeRelease() {
+        const state = await untilInspect(page, (now) => now.feet.length === 1 && distance(foot(now, 1).screen, to) < exactly);
+        assert.equal(state.document, before.document, "nothing is committed before the release");
+      },
+    });
+    await pointAway(page);
+    const after = await atRest(page, (state) => state.document !== before.document);
+    assert.equal(after.act, "Displace");
+    assert.equal(after.selection, "surface 1");
+    assert.ok(distance(foot(after, 1).screen, to) < exactly, "it stays where it was let go");
+    assert.equal(after.points.length, before.points.length, "no control was made");
+    const [item] = displacedOf(after).items;
+    assert.equal(item.range, 0.2);
+    const shown = item.foot.at.map((x, axis) => x + item.by[axis]);
+    assert.ok(distance(shown, foot(after, 1).at) < 0.01, "the document says what the picture shows");
+    assert.ok(Math.abs(after.figures.energy / before.figures.energy - 1) < 1e-3, "the surface below is what it was");
+    const changed = difference(seen, await picture(page));
+    assert.ok(changed > 0.02, `the picture is another one in ${changed} of its pixels`);
+
+    await page.keyboard.press("Control+z");
+    const back = await atRest(page, (state) => state.document !== after.document);
+    assert.equal(back.document, before.document, "undo brings the very document back");
+    assert.equal(back.feet.length, 0);
+    await page.keyboard.press("Control+Shift+Z");
+    const again = await atRest(page, (state) => state.document !== before.document);
+    assert.equal(again.document, after.document, "redo brings the second one back");
+  });
+});
+
+test("a foot is taken again, changed by numbers, erased; all are dropped", async () => {
+  await withPage({ viewport: wide }, async (page) => {
+    const before = await atRest(page);
+    const [from, to] = onBareSurface(before);
+    await page.keyboard.press("e");
+    await drag(page, from, to);
+    const one = await atRest(page, ({ act }) => act === "Displace");
+    const target = [to[0] + 25, to[1] + 10];
+    await drag(page, foot(one, 1).screen, target);
+    const moved = await atRest(page, ({ act }) => act === "Change displacement");
+    assert.ok(distance(foot(moved, 1).screen, target) < exactly);
+    assert.equal(displacedOf(moved).items.length, 1);
+
+    // Numbers of the chosen one.
+    await page.locator("#displaced-z").fill("0.25");
+    await page.locator("#displaced-z").press("Enter");
+    const typed = await atRest(page, (state) => displacedOf(state).items[0].by[2] === 0.25);
+    await page.locator("#displaced-range").fill("-1");
+    await page.locator("#displaced-range").press("Enter");
+    await atRest(page, (state) => displacedOf(state).items[0].range === -1);
+    await page.locator("#displaced-blend").selectOption({ label: "Bump" });
+    await atRest(page, (state) => displacedOf(state).blending?.blend?.bump === 1);
+    assert.notEqual(typed.document, moved.document);
+
+    // Escape puts a drag back.
+    const held = await inspect(page);
+    const [x, y] = foot(held, 1).screen;
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    await page.mouse.move(x + 40, y - 30, { steps: 6 });
+    await untilInspect(page, (state) => distance(foot(state, 1).screen, [x + 40, y - 30]) < exactly);
+    await page.keyboard.press("Escape");
+    await page.mouse.up();
+    const given = await atRest(page, (state) => distance(foot(state, 1).screen, [x, y]) < exactly);
+    assert.equal(given.document, held.document);
+
+    await page.locator('#displaced-list [data-subject="1"]').click();
+    await page.locator("#erase-displacement").click();
+    const erased = await atRest(page, ({ act }) => act === "Erase displacement");
+    assert.equal(erased.feet.length, 0);
+    await page.locator("#drop-displacements").waitFor({ state: "hidden" });
+    await page.keyboard.press("Control+z");
+    await atRest(page, ({ act }) => act === "Undo Erase displacement");
+    await page.locator("#drop-displacements").click();
+    const dropped = await atRest(page, ({ act }) => act === "Drop displacements");
+    assert.equal(displacedOf(dropped), undefined);
+    await page.mouse.move(80, 300);
+    await page.locator("#view").focus();
+    await page.keyboard.press("Escape");
+    await untilInspect(page, ({ tool }) => tool === "shape");
+  });
+});
+
+test("a displaced surface travels by link and comes back after a reload", async () => {
+  const session = await open({ viewport: wide, context });
+  try {
+    const { page } = session;
+    const [from, to] = onBareSurface(await atRest(page));
+    await page.keyboard.press("e");
+    await drag(page, from, to);
+    const sent = await atRest(page, ({ act }) => act === "Displace");
+    await page.locator("#link").click();
+    await untilInspect(page, (state) => state.toast?.startsWith("Link copied"));
+    const link = await page.evaluate(() => navigator.clipboard.readText());
+    const other = await session.browser.newContext({ viewport: wide });
+    const friend = await session.visit(link, other);
+    const seen = await atRest(friend, ({ feet }) => feet.length === 1);
+    assert.equal(seen.document, sent.document);
+    assert.ok(distance(foot(seen, 1).at, foot(sent, 1).at) < 0.01);
+    await page.reload();
+    const back = await atRest(page, ({ feet }) => feet.length === 1);
+    assert.equal(back.document, sent.document);
+    assert.ok(distance(foot(back, 1).at, foot(sent, 1).at) < 0.01);
+    await drawn(page);
+    session.assertQuiet();
+  } finally {
+    await session.close();
+  }
+});
