@@ -276,25 +276,27 @@ impl Document {
         self.surfaces.get(&surface).and_then(|surface| surface.density).unwrap_or(self.density)
     }
 
-    /// The smallest identity that no point has yet and that lies above all those in use.
+    /// The smallest identity that lies above all points in use; if they reach the end of all identities, the smallest free one.
     #[must_use]
     pub fn next_point(&self) -> PointId {
-        PointId(self.points.last_key_value().map_or(1, |(id, _)| id.0.saturating_add(1)))
+        let last = self.points.last_key_value().map(|(id, _)| id.0);
+        PointId(after(last, |id| self.points.contains_key(&PointId(id))))
     }
 
     /// As [`Self::next_point`], for curves.
     #[must_use]
     pub fn next_curve(&self) -> CurveId {
-        CurveId(self.curves.last_key_value().map_or(1, |(id, _)| id.0.saturating_add(1)))
+        let last = self.curves.last_key_value().map(|(id, _)| id.0);
+        CurveId(after(last, |id| self.curves.contains_key(&CurveId(id))))
     }
 
     /// As [`Self::next_point`], for surfaces.
     #[must_use]
     pub fn next_surface(&self) -> SurfaceId {
-        let last = |id: Option<&SurfaceId>| id.map_or(0, |id| id.0);
-        let fair = last(self.surfaces.keys().next_back());
-        let exact = last(self.cages.keys().next_back()).max(last(self.fills.keys().next_back()));
-        SurfaceId(fair.max(exact).saturating_add(1))
+        let fair = self.surfaces.last_key_value().map(|(id, _)| id.0);
+        let exact = [self.cages.keys().next_back(), self.fills.keys().next_back()];
+        let last = fair.max(exact.into_iter().flatten().map(|id| id.0).max());
+        SurfaceId(after(last, |id| self.kind_of(SurfaceId(id)).is_some()))
     }
 
     /// What kind of surface has this identity, if any.
@@ -362,4 +364,10 @@ impl Document {
         }
         ((low + high) * 0.5, (high - low).length() * 0.5)
     }
+}
+
+/// The number above the last one in use, or, if there is none, the smallest above zero that is not taken.
+fn after(last: Option<u32>, is_taken: impl Fn(u32) -> bool) -> u32 {
+    let free = || (1..u32::MAX).find(|id| !is_taken(*id)).unwrap_or(u32::MAX);
+    last.map_or(1, |last| last.checked_add(1).unwrap_or_else(free))
 }

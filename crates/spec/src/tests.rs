@@ -385,3 +385,14 @@ fn a_file_travels_as_bytes() {
     let formats = ["a.b.PLY", "cage.obj", "ply", "x.stl"].map(ImportFormat::of_name);
     assert_eq!(formats, [Some(ImportFormat::Ply), Some(ImportFormat::Obj), None, None]);
 }
+
+#[test]
+fn a_new_identity_is_free_even_if_the_last_one_is_taken() {
+    let mut document = Document::default();
+    assert_eq!((document.next_point(), document.next_surface()), (PointId(1), SurfaceId(1)));
+    document.points.extend([1, 2, u32::MAX].map(|id| (PointId(id), DVec3::ZERO)));
+    assert_eq!(document.next_point(), PointId(3));
+    document.points.remove(&PointId(u32::MAX));
+    document.points.remove(&PointId(1));
+    assert_eq!(document.next_point(), PointId(3));
+}
