@@ -81,7 +81,12 @@ impl Round {
                 self.resume();
                 None
             }
-            Request::Export(_) | Request::Describe | Request::Meet { .. } | Request::Reach { .. } => {
+            Request::Export(_)
+            | Request::Describe
+            | Request::Meet { .. }
+            | Request::Reach { .. }
+            | Request::Loop { .. }
+            | Request::Seams => {
                 let reply = self.bench.send(request.clone());
                 self.is_as(&before);
                 reply.refused.map(|refusal| refusal.reason)

@@ -14,6 +14,7 @@ mod ribbon_file;
 mod run;
 mod samples;
 mod script;
+mod seams;
 mod solve;
 mod verify;
 
@@ -46,6 +47,8 @@ enum Command {
     Fill(fill::Options),
     /// Move points and curves of a mesh, and the surface around them smoothly
     Displace(displace::Options),
+    /// Tell how well surfaces meet along the curves that they share
+    Seams(seams::Options),
     /// Print the share link of a specification
     Link {
         /// Spec file, or - for standard input
@@ -73,6 +76,7 @@ fn main() -> ExitCode {
         Command::Fill(options) => fill::run(&options),
         Command::Displace(options) => displace::run(&options),
         Command::Link { spec, base } => link::link(&spec, &base).map(|()| ExitCode::SUCCESS),
+        Command::Seams(options) => seams::run(&options),
         Command::Verify(options) => verify::run(&options),
         Command::Unlink { link } => link::unlink(&link).map(|()| ExitCode::SUCCESS),
     };

@@ -152,6 +152,13 @@ impl BoundSurface {
         self.solver.normals()
     }
 
+    /// Half the sum of the principal curvatures at a compact node, per model unit, positive where the surface bends towards
+    /// its normal.
+    #[must_use]
+    pub fn mean_curvature(&self, node: usize) -> Option<f64> {
+        self.solver.curvatures().nth(node).map(|curvature| curvature.mean)
+    }
+
     /// The triangles, over compact nodes.
     #[must_use]
     pub fn triangles(&self) -> &[[u32; 3]] {

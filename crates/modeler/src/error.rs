@@ -1,5 +1,6 @@
 //! Why the modeler refuses: typed, with the offending thing in the message, in words for the designer.
 
+use crate::patch::FillError;
 use ductile_mesh::io::{obj::ObjError, ply::PlyError};
 use ductile_mesh::{BridgeError, BuildError, GlueError, IntersectError, PathError};
 use ductile_patch::DisplacementError;
@@ -113,6 +114,30 @@ pub enum ModelError {
     /// No points were named.
     #[error("there is nothing to move: no points were named")]
     NothingToShift,
+    /// A loop cannot be filled.
+    #[error("{surface}: {reason}")]
+    Fill {
+        /// The fill.
+        surface: SurfaceId,
+        /// Why not.
+        reason: FillError,
+    },
+    /// A curve lies on no loop.
+    #[error(
+        "{0} lies on no loop that could be filled: curves must meet at control points, three sides or more"
+    )]
+    NoLoop(CurveId),
+    /// The loops have too few corners.
+    #[error(
+        "the loop along {0} has {1} corners; a patch needs at least 3. Choose corners, or skin a closed curve with Sheet"
+    )]
+    FewCorners(CurveId, usize),
+    /// All loops of a network are filled, or it has none.
+    #[error("there is no loop of curves left that could be filled")]
+    NothingToFill,
+    /// The surface is no fill.
+    #[error("{0} is no fill")]
+    NoFill(SurfaceId),
     /// The surface is of another kind than the act can deal with.
     #[error("{surface} is {kind}: {act} works on fair surfaces only")]
     OnlyFair {

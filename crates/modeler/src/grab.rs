@@ -211,6 +211,10 @@ impl Grab {
             model.document_mut().points.insert(*point, kept);
         }
         model.check_extents()?;
+        // What it leaves could be opened again, but not be filled.
+        for fill in model.document.fills.keys().filter(|fill| self.before.check_fill(**fill).is_ok()) {
+            model.check_fill(*fill)?;
+        }
         Ok(if self.is_new { "Control point" } else { "Move" })
     }
 }

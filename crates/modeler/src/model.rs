@@ -43,8 +43,15 @@ impl Model {
         for id in model.document.surfaces.keys().copied().collect::<Vec<_>>() {
             model.build_surface(id)?;
         }
-        for id in model.document.cages.keys().copied().collect::<Vec<_>>() {
+        let exact = model.document.cages.keys().chain(model.document.fills.keys());
+        for id in exact.copied().collect::<Vec<_>>() {
             model.build_patch(id)?;
+        }
+        patch::follow(&mut model, None);
+        // Whether a loop of curves can be filled changes with the curves; of ribbons it is known once and for all.
+        for (surface, fill) in model.document.fills.iter().filter(|(_, fill)| fill.sides.is_empty()) {
+            model.check_fill(*surface)?;
+            debug_assert!(!fill.ribbons.is_empty(), "the document is valid");
         }
         Ok(model)
     }
@@ -105,6 +112,12 @@ impl Model {
         let shape = build_surface(&self.document, &self.curves, id, (spacing, is_graded), revision)?;
         self.surfaces.insert(id, Arc::new(shape));
         Ok(())
+    }
+
+    /// Whether a fill could follow its curves.
+    pub(crate) fn check_fill(&self, surface: SurfaceId) -> Result<(), ModelError> {
+        let failure = patch::fill::shape(self, surface).and_then(|shape| shape.failure);
+        failure.map_or(Ok(()), |reason| Err(ModelError::Fill { surface, reason }))
     }
 
     /// Builds an exact surface of the document, from its controls as they are now.

@@ -13,11 +13,13 @@ use crate::operation;
 use crate::patch;
 use crate::pull::Pull;
 use crate::relax::Relaxer;
+use crate::seams;
 use ductile_mesh::Mesh;
 use ductile_mesh::io::obj;
 use ductile_spec::{
-    Committed, Document, Edit, ExportFormat, Exported, FrameHeader, GrabTarget, Grabbed, Meeting, Pulled,
-    Reach, Refusal, Reply, Request, Resume, Step, SurfaceId, from_fragment, from_text, to_compact_text,
+    Committed, Document, Edit, ExportFormat, Exported, FoundLoop, FrameHeader, GrabTarget, Grabbed, Meeting,
+    Pulled, Reach, Refusal, Reply, Request, Resume, Seams, Step, SurfaceId, from_fragment, from_text,
+    to_compact_text,
 };
 
 /// The modeler behind the page, the command line and the tests.
@@ -54,6 +56,8 @@ struct Outcome {
     exported: Option<Exported>,
     meeting: Option<Meeting>,
     reach: Option<Reach>,
+    found: Option<FoundLoop>,
+    seams: Option<Seams>,
 }
 
 impl Modeler {
@@ -99,6 +103,7 @@ impl Modeler {
                 reply.exported = outcome.exported;
                 reply.meeting = outcome.meeting;
                 reply.reach = outcome.reach;
+                (reply.found, reply.seams) = (outcome.found, outcome.seams);
             }
             Err(error) => {
                 let reason = error.of_kind(&self.model.document, act).to_string();
@@ -106,7 +111,7 @@ impl Modeler {
             }
         }
         self.relaxer.bind(&self.model);
-        patch::follow(&mut self.model);
+        patch::follow(&mut self.model, Some(&self.relaxer));
         let is_at_rest = self.relaxer.is_settled() && !self.is_holding();
         self.displacer.refresh(&self.model, &self.relaxer, is_at_rest);
         let changed = self.frame.write(&self.model, &self.relaxer, &self.displacer);
@@ -151,6 +156,14 @@ impl Modeler {
             Request::Reach { surface, at, range } => {
                 let segments = self.displacer.reach((&self.model, &self.relaxer), surface, at, range)?;
                 Ok(Outcome { reach: Some(Reach { surface, segments }), ..Outcome::default() })
+            }
+            Request::Loop { curve, at } => {
+                let found = operation::found_loop(&self.model, curve, at);
+                Ok(Outcome { found: Some(found), ..Outcome::default() })
+            }
+            Request::Seams => {
+                let seams = seams::seams(&self.model, &self.relaxer);
+                Ok(Outcome { seams: Some(seams), ..Outcome::default() })
             }
             Request::Describe => {
                 self.describe = true;
@@ -265,7 +278,7 @@ impl Modeler {
             }
         }
         // What goes on from an exact surface needs it where its controls are now.
-        patch::follow(&mut self.model);
+        patch::follow(&mut self.model, Some(&self.relaxer));
         self.relaxer.step(&mut self.model, step.iterations);
         if let Some(grab) = self.grab.as_mut()
             && self.relaxer.is_hand_slow()
@@ -426,6 +439,8 @@ fn label(request: &Request) -> &'static str {
         Request::Export(_) => "Export",
         Request::Meet { .. } => "Meet",
         Request::Reach { .. } => "Reach",
+        Request::Loop { .. } => "Fill",
+        Request::Seams => "Seams",
         Request::Describe => "Describe",
     }
 }

@@ -1,4 +1,5 @@
-//! Which curves are solved together: those that meet, three or more at a time, at a control point of one surface.
+//! Which curves are solved together: those that meet, three or more at a time, at a control point of one surface, or at a corner of
+//! fills that join smoothly there.
 //!
 //! A surface can be smooth where its curves cross only if their tangents lie in a plane there (thesis section 8.3, recipe
 //! section 10); two always do. A point where curves of different surfaces meet is a corner, and asks nothing. Curves that
@@ -6,6 +7,7 @@
 
 use crate::bound::{BoundCurve, Motion};
 use crate::model::Model;
+use crate::patch::fill;
 use crate::shape::{CurveShape, edit};
 use ductile_solver::{Network, SolverError, Spoke, Strand};
 use ductile_spec::{CurveId, Document, Objective, PointId};
@@ -135,6 +137,13 @@ fn hubs(document: &Document) -> Vec<Hub> {
         }
         for (point, curves) in through.into_iter().filter(|(_, curves)| curves.len() > 2) {
             taken.extend(curves.iter().map(|id| (point, *id)));
+            hubs.push((point, curves));
+        }
+    }
+    for (point, curves) in fill::corners(document) {
+        let curves: Vec<CurveId> =
+            curves.into_iter().filter(|id| has_part(id) && !taken.contains(&(point, *id))).collect();
+        if curves.len() > 2 {
             hubs.push((point, curves));
         }
     }

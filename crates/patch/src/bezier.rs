@@ -3,7 +3,7 @@
 
 mod fit;
 
-pub use fit::{CurveFit, FitError, MOST_FITTED_DEGREE, fit_curve};
+pub use fit::{CurveFit, FitError, MOST_FITTED_DEGREE, fit_curve, fit_curve_along};
 
 use glam::DVec3;
 

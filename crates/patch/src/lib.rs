@@ -13,6 +13,7 @@ mod bezier;
 pub mod cage;
 mod displacement;
 mod jet;
+mod network;
 #[cfg(test)]
 mod property_test;
 mod ribbon;
@@ -22,12 +23,14 @@ pub(crate) mod surface_point;
 
 pub use bernstein::{basis, basis_derivative, binomial};
 pub use bezier::{
-    CurveFit, FitError, MOST_FITTED_DEGREE, curve_derivative, curve_point, elevated, fit_curve, hodograph,
+    CurveFit, FitError, MOST_FITTED_DEGREE, curve_derivative, curve_point, elevated, fit_curve,
+    fit_curve_along, hodograph,
 };
 pub use displacement::{
     Blend, BlendError, BlendFunction, Combination, Direction, DisplacementError, Displacements, Domain, Erbs,
     Item, ItemReport, Laplacian, Placed, Profile, Range, Settings, nearest_spot, place,
 };
+pub use network::{Directed, NetworkEdge, loops_through, network_faces, plane_of_directions};
 pub use ribbon::{
     Adjusted, MOST_DEGREE, MOST_SIDES, NoNormal, PlaneSample, Planed, Ribbon, RibbonError, RibbonLoop,
     made_compatible, ribbons_along,

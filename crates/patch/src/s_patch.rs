@@ -11,6 +11,7 @@
 mod build;
 mod domain;
 mod evaluate;
+mod kind;
 mod label;
 mod masks;
 mod patch;
@@ -20,6 +21,7 @@ pub(crate) mod tests;
 
 pub use build::{BuildError, Join};
 pub use domain::Domain;
+pub use kind::{KindError, PatchKind};
 pub use label::{LabelKind, Labels, TooManyPoints};
 pub use masks::{Fill, MaskCache, MaskError};
 pub use patch::SPatch;

@@ -344,7 +344,7 @@ impl Document {
             .map(|(id, _)| *id)
     }
 
-    /// Half the diagonal of the box around all points and free skeleton vertices, and its centre.
+    /// Half the diagonal of the box around all points, free skeleton vertices and ribbons, and its centre.
     ///
     /// Zero for an empty document.
     #[must_use]
@@ -355,7 +355,9 @@ impl Document {
         });
         let mut low = DVec3::INFINITY;
         let mut high = DVec3::NEG_INFINITY;
-        for at in self.points.values().chain(free) {
+        let ribbons = self.fills.values().flat_map(|fill| &fill.ribbons);
+        let rows = ribbons.flat_map(|ribbon| ribbon.row0.iter().chain(&ribbon.row1));
+        for at in self.points.values().chain(free).chain(rows) {
             low = low.min(*at);
             high = high.max(*at);
         }

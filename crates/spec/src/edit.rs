@@ -5,6 +5,7 @@ use crate::cage::CageSettings;
 use crate::cage_source::CageSource;
 use crate::displacement::{Blending, Displacement};
 use crate::document::{Density, Objective};
+use crate::fill::{FillStyle, Hole};
 use crate::id::{CurveId, PointId, SurfaceId};
 use crate::surgery::{Border, Extent, On};
 use glam::DVec3;
@@ -103,6 +104,30 @@ pub enum Edit {
         radius: f64,
         /// Whether their rims stay as control curves, or are freed.
         keep: bool,
+    },
+    /// Fills a loop of curves, of rims or of both with an exact patch (Salvi 2020).
+    Fill {
+        /// Which loop.
+        hole: Hole,
+        /// How it is filled.
+        #[serde(default)]
+        style: FillStyle,
+    },
+    /// Fills all loops of a network of curves, so that the patches meet in common tangent planes.
+    FillNetwork {
+        /// A curve of the network; without one all curves count.
+        #[serde(default)]
+        curve: Option<CurveId>,
+        /// How they are filled.
+        #[serde(default)]
+        style: FillStyle,
+    },
+    /// Chooses anew how a fill is filled.
+    Refill {
+        /// Which fill.
+        surface: SurfaceId,
+        /// How.
+        style: FillStyle,
     },
     /// Cuts two surfaces along their intersection and joins them there (thesis sections 3.3.1 and 7.4).
     Trim {
@@ -328,6 +353,9 @@ impl Edit {
             Self::Glue { .. } => "Glue",
             Self::Merge { .. } => "Merge",
             Self::Trim { .. } => "Trim",
+            Self::Fill { .. } => "Fill",
+            Self::FillNetwork { .. } => "Fill all",
+            Self::Refill { .. } => "Refill",
             Self::Expand { .. } => "Expand",
             Self::Reverse { .. } => "Reverse",
             Self::Propagate { .. } => "Propagate",

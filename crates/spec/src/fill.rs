@@ -1,18 +1,31 @@
 //! A fill: an exact n-sided patch in a loop of curves (P. Salvi, *G1 hole filling with S-patches made easy*, 2020).
+//!
+//! Its sides are stretches of control curves, so that it follows whatever moves those; or it is given by ribbons, whose control
+//! points are in the document itself.
 
-use crate::id::{CurveId, PointId};
+use crate::document::Curve;
+use crate::id::{CurveId, PointId, SurfaceId};
+use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 /// A patch that fills a loop of curves.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Fill {
-    /// Its sides, at least three, each beginning where the one before ends, the last ending where the first begins.
+    /// Its sides, at least three, each beginning where the one before ends, the last ending where the first begins. None if it has
+    /// ribbons.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub sides: Vec<FillSide>,
+    /// Ribbons around it in place of sides, at least three.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub ribbons: Vec<FillRibbon>,
+    /// How it is filled.
+    #[serde(default, skip_serializing_if = "FillStyle::is_default")]
+    pub style: FillStyle,
 }
 
 /// A side of a fill: a stretch of a control curve.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FillSide {
     /// Which curve.
@@ -21,4 +34,130 @@ pub struct FillSide {
     pub from: PointId,
     /// The control point of that curve where it ends.
     pub to: PointId,
+    /// Whether it runs against the sense of a closed curve, which leads from the one point to the other in two ways.
+    #[serde(default, skip_serializing_if = "core::ops::Not::not")]
+    pub back: bool,
+    /// The surface beside it whose tangent planes it takes; without one they are fair, and agree with those of another fill that has
+    /// the same side and says nothing either.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub planes: Option<SurfaceId>,
+}
+
+/// A ribbon: a Bézier curve with a second row of control points, which says in what plane the patch leaves it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FillRibbon {
+    /// The boundary curve.
+    pub row0: Vec<DVec3>,
+    /// The next row inward of a tensor product patch of the same degree in both directions; as many points.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub row1: Vec<DVec3>,
+}
+
+/// How a fill is filled.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FillStyle {
+    /// Degree of the Bézier curves along its sides, 3 to 7; without one it is chosen by the number of sides.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub degree: Option<u8>,
+    /// How its inside is placed.
+    #[serde(default, skip_serializing_if = "FillInterior::is_default")]
+    pub interior: FillInterior,
+    /// How it meets what lies around it.
+    #[serde(default, skip_serializing_if = "FillJoin::is_default")]
+    pub join: FillJoin,
+    /// Edges of its mesh along each side, 1 to 64; without one 16.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub resolution: Option<u8>,
+}
+
+/// How control points inside a fill are placed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FillInterior {
+    /// By the mask of neighbours applied twice: what suits tangent planes.
+    #[default]
+    Biharmonic,
+    /// Each at the mean of its neighbours.
+    Harmonic,
+}
+
+/// How a fill meets what lies around it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FillJoin {
+    /// In its tangent planes (G1).
+    #[default]
+    Tangent,
+    /// Along its curves only.
+    Position,
+}
+
+/// Edges of the mesh of a fill along each side where nothing else is said.
+pub const FILL_RESOLUTION: u8 = 16;
+
+/// What is to be filled.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Hole {
+    /// The loop of curves, or of rims of surfaces, through a place of a curve: the shortest one, rather one that bounds nothing yet.
+    Near {
+        /// The curve.
+        curve: CurveId,
+        /// The place on it, roughly; without one anywhere.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        at: Option<DVec3>,
+    },
+    /// A loop between given corners of a closed curve, in its sense: at least three of its points.
+    Corners {
+        /// The curve.
+        curve: CurveId,
+        /// Those points.
+        points: Vec<PointId>,
+    },
+    /// Sides that are given one by one.
+    Sides(Vec<FillSide>),
+    /// A hole between ribbons.
+    Ribbons(Vec<FillRibbon>),
+}
+
+/// A stretch of a curve, in the sense of the curve: two sides with one stretch are one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct CurveStretch {
+    /// Which curve.
+    pub curve: CurveId,
+    /// The control point where it begins.
+    pub from: PointId,
+    /// The control point where it ends.
+    pub to: PointId,
+}
+
+impl FillSide {
+    /// The stretch that it is of its curve, and whether it runs against the curve's sense.
+    #[must_use]
+    pub fn stretch(&self, curve: &Curve) -> (CurveStretch, bool) {
+        let place = |point| curve.through.iter().position(|other| *other == point);
+        let back = if curve.closed { self.back } else { place(self.from) > place(self.to) };
+        let (from, to) = if back { (self.to, self.from) } else { (self.from, self.to) };
+        (CurveStretch { curve: self.curve, from, to }, back)
+    }
+}
+
+impl FillStyle {
+    fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+impl FillInterior {
+    fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+impl FillJoin {
+    fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
 }

@@ -16,6 +16,7 @@ mod fill;
 mod frame;
 mod id;
 mod protocol;
+mod seams;
 mod share;
 mod surgery;
 mod text;
@@ -36,16 +37,19 @@ pub use document::{
 };
 pub use edit::{Edit, GrabTarget, Handle, Leave, ObjectiveOf, SpacingOf, Through};
 pub use example::Example;
-pub use fill::{Fill, FillSide};
+pub use fill::{
+    CurveStretch, FILL_RESOLUTION, Fill, FillInterior, FillJoin, FillRibbon, FillSide, FillStyle, Hole,
+};
 pub use frame::{
     CurveRole, CurveSpan, Figures, FootEntry, FrameHeader, NO_REGION, Net, PointEntry, PointRole,
     RegionEntry, Structure, SurfaceKind, SurfaceSpan, SurfaceSummary, VERTEX_FLOATS, vertex_layout,
 };
 pub use id::{CurveId, PointId, SurfaceId};
 pub use protocol::{
-    Committed, ExportFormat, Exported, Grabbed, ImportFormat, Meeting, MeetingLine, Pulled, Reach, Refusal,
-    Remembered, Reply, Request, Resume, Step, TRAP,
+    Committed, ExportFormat, Exported, FoundLoop, Grabbed, ImportFormat, Meeting, MeetingLine, Pulled, Reach,
+    Refusal, Remembered, Reply, Request, Resume, Step, TRAP,
 };
+pub use seams::{FillFigures, SeamFigures, Seams};
 pub use share::{FRAGMENT_KEY, LinkError, MAX_LINK_BYTES, from_fragment, to_fragment};
 pub use surgery::{Border, Extent, On};
 pub use text::{FORMAT_VERSION, MAX_TEXT_BYTES, TextError, from_text, to_compact_text, to_text};

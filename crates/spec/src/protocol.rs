@@ -7,7 +7,8 @@
 use crate::edit::{Edit, GrabTarget};
 use crate::example::Example;
 use crate::frame::{FrameHeader, Structure};
-use crate::id::{PointId, SurfaceId};
+use crate::id::{CurveId, PointId, SurfaceId};
+use crate::seams::Seams;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
@@ -74,6 +75,15 @@ pub enum Request {
         /// Its range.
         range: f64,
     },
+    /// Asks for the loop that a fill would take through a place of a curve. Changes nothing.
+    Loop {
+        /// The curve.
+        curve: CurveId,
+        /// The place, roughly.
+        at: DVec3,
+    },
+    /// Asks how well surfaces meet along the curves that they share. Changes nothing.
+    Seams,
     /// Asks for the structure and the document anew, for a page that has just connected.
     Describe,
 }
@@ -157,6 +167,10 @@ pub struct Reply {
     pub meeting: Option<Meeting>,
     /// How far a displacement would reach, if that was asked.
     pub reach: Option<Reach>,
+    /// The loop through a place of a curve, if that was asked.
+    pub found: Option<FoundLoop>,
+    /// How well surfaces meet, if that was asked.
+    pub seams: Option<Seams>,
 }
 
 /// The document after an act.
@@ -230,6 +244,19 @@ pub struct MeetingLine {
     pub along: Vec<DVec3>,
     /// Whether it closes; an open one ends at rims.
     pub closed: bool,
+}
+
+/// The loop that a fill would take.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FoundLoop {
+    /// The curve that was pointed at.
+    pub curve: CurveId,
+    /// The place on it.
+    pub at: DVec3,
+    /// Places along each side, in model units; none if there is no loop.
+    pub sides: Vec<Vec<DVec3>>,
+    /// Why there is none.
+    pub why: Option<String>,
 }
 
 /// A file for the designer.

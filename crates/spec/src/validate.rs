@@ -191,6 +191,22 @@ pub enum Defect {
         /// How many sides it has.
         sides: usize,
     },
+    /// A fill cannot be as it is said to be.
+    #[error("{surface}: {why}")]
+    Fill {
+        /// Which fill.
+        surface: SurfaceId,
+        /// What is wrong with it.
+        why: &'static str,
+    },
+    /// A ribbon has rows of a wrong length.
+    #[error("{surface}, ribbon {side}: its rows must have from 2 to 16 points, both as many")]
+    FillRibbon {
+        /// Which fill.
+        surface: SurfaceId,
+        /// Index of the ribbon.
+        side: usize,
+    },
     /// A side of a fill is no stretch of its curve.
     #[error("{surface}, side {side}: {curve} {why}")]
     FillSide {

@@ -158,7 +158,7 @@ impl Schedule {
             }
             Request::Meet { .. } => Answered::Meeting,
             Request::Reach { .. } => Answered::Reach,
-            Request::Export(_) | Request::Describe => Answered::Other,
+            Request::Export(_) | Request::Loop { .. } | Request::Seams | Request::Describe => Answered::Other,
         })
     }
 
@@ -256,6 +256,8 @@ pub fn label(request: &Request) -> &'static str {
         Request::Export(_) => "Export",
         Request::Meet { .. } => "Meet",
         Request::Reach { .. } => "Reach",
+        Request::Loop { .. } => "Fill",
+        Request::Seams => "Seams",
         Request::Describe => "Describe",
     }
 }

@@ -24,7 +24,7 @@ impl Modeler {
         operation::apply(&mut self.model, &self.relaxer, &mut self.displacer, &edit)?;
         give_back(&mut self.model, before, taken)?;
         self.displacer.adopt(&self.model);
-        patch::follow(&mut self.model);
+        patch::follow(&mut self.model, Some(&self.relaxer));
         self.displacer.carry_exact(&mut self.model, &self.relaxer, &footprints)
     }
 

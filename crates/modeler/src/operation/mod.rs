@@ -12,6 +12,7 @@ mod density;
 mod displace;
 mod expand;
 mod extrude;
+mod fill;
 mod glue;
 mod insert;
 mod merge;
@@ -42,6 +43,7 @@ use crate::displaced::Displacer;
 use crate::error::ModelError;
 use crate::maintain;
 use crate::model::Model;
+use crate::patch;
 use crate::relax::Relaxer;
 use crate::shape::SurfaceShape;
 use ductile_spec::{Edit, MAX_COORDINATE, PointId, SurfaceId};
@@ -50,6 +52,7 @@ use std::sync::Arc;
 
 pub(crate) use cage::import;
 pub(crate) use delete::drop_unused;
+pub(crate) use fill::{forget_lost as forget_lost_planes, found_loop};
 pub(crate) use insert::insert;
 pub(crate) use pin::pin;
 pub(crate) use ribbon::forget_lost;
@@ -72,7 +75,13 @@ pub(crate) fn apply(
     if let Some(outcome) = displacing((model, relaxer, displacer), edit) {
         return outcome;
     }
+    let before = (!model.document.fills.is_empty()).then(|| model.clone());
     act(model, relaxer, edit)?;
+    if let Some(before) = before {
+        forget_lost_planes(model);
+        patch::follow(model, Some(relaxer));
+        fill::check_kept(model, &before)?;
+    }
     for id in model.surfaces.keys().copied().collect::<Vec<_>>() {
         let is_new = model.surfaces.get(&id).is_some_and(|shape| relaxer.surface(id, shape).is_none());
         if is_new {
@@ -131,6 +140,9 @@ fn act(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result<(), ModelErr
         Edit::SLoop { surface, along, closed } => s_loop::s_loop(model, *surface, along, *closed),
         Edit::Glue { from, to, skirt, reversed } => glue::glue(model, *from, *to, *skirt, *reversed),
         Edit::Merge { from, to, radius, keep } => merge::merge(model, *from, *to, *radius, *keep),
+        Edit::Fill { hole, style } => fill::fill(model, relaxer, hole, *style),
+        Edit::FillNetwork { curve, style } => fill::fill_network(model, relaxer, *curve, *style),
+        Edit::Refill { surface, style } => fill::refill(model, relaxer, *surface, *style),
         Edit::Trim { first, second, smooth } => trim::trim(model, *first, *second, *smooth),
         Edit::Pin { surface, at } => pin(model, relaxer, *surface, *at).map(drop),
         Edit::Insert { curve, at } => insert(model, *curve, *at).map(drop),

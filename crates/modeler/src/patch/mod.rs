@@ -2,6 +2,7 @@
 //! in every frame, in the middle of a drag too, and never keep a model from resting.
 
 mod cage;
+pub(crate) mod fill;
 mod polygons;
 mod rim;
 #[cfg(test)]
@@ -10,12 +11,14 @@ mod tests;
 use crate::error::ModelError;
 use crate::frame::summarise;
 use crate::model::Model;
+use crate::relax::Relaxer;
 use crate::shape::edit;
 use ductile_mesh::Mesh;
 use ductile_spec::{SurfaceId, SurfaceKind, SurfaceSummary};
 use glam::DVec3;
 
 pub use cage::CageShape;
+pub use fill::{FillError, FillShape};
 pub(crate) use polygons::{caged, change};
 pub(crate) use rim::PatchRim;
 
@@ -24,6 +27,8 @@ pub(crate) use rim::PatchRim;
 pub enum PatchShape {
     /// A surface over a cage.
     Cage(CageShape),
+    /// A patch in a loop of curves.
+    Fill(FillShape),
 }
 
 /// A control net: places and the edges between them.
@@ -35,6 +40,7 @@ impl PatchShape {
     pub fn kind(&self) -> SurfaceKind {
         match self {
             Self::Cage(_) => SurfaceKind::Cage,
+            Self::Fill(_) => SurfaceKind::Fill,
         }
     }
 
@@ -43,6 +49,7 @@ impl PatchShape {
     pub fn positions(&self) -> &[DVec3] {
         match self {
             Self::Cage(shape) => shape.positions(),
+            Self::Fill(shape) => shape.positions(),
         }
     }
 
@@ -51,6 +58,7 @@ impl PatchShape {
     pub fn normals(&self) -> &[DVec3] {
         match self {
             Self::Cage(shape) => shape.normals(),
+            Self::Fill(shape) => shape.normals(),
         }
     }
 
@@ -59,6 +67,7 @@ impl PatchShape {
     pub fn triangles(&self) -> &[[u32; 3]] {
         match self {
             Self::Cage(shape) => shape.triangles(),
+            Self::Fill(shape) => shape.triangles(),
         }
     }
 
@@ -67,6 +76,7 @@ impl PatchShape {
     pub fn net(&self) -> NetLines<'_> {
         match self {
             Self::Cage(shape) => shape.net(),
+            Self::Fill(shape) => shape.net(),
         }
     }
 
@@ -81,6 +91,7 @@ impl PatchShape {
     pub fn revision(&self) -> u64 {
         match self {
             Self::Cage(shape) => shape.revision,
+            Self::Fill(shape) => shape.revision,
         }
     }
 
@@ -88,6 +99,7 @@ impl PatchShape {
     pub(crate) fn set_revision(&mut self, revision: u64) {
         match self {
             Self::Cage(shape) => shape.revision = revision,
+            Self::Fill(shape) => shape.revision = revision,
         }
     }
 
@@ -96,6 +108,8 @@ impl PatchShape {
     pub fn bytes(&self) -> usize {
         match self {
             Self::Cage(shape) => shape.bytes(),
+            // The tables of its kind are shared with others of it.
+            Self::Fill(shape) => 48 * shape.positions().len(),
         }
     }
 
@@ -103,6 +117,8 @@ impl PatchShape {
     fn is_behind(&self, model: &Model) -> bool {
         match self {
             Self::Cage(shape) => shape.is_behind(&model.document),
+            // They look at one another: see `fill::follow`.
+            Self::Fill(_) => false,
         }
     }
 
@@ -110,21 +126,26 @@ impl PatchShape {
     fn follow(&mut self, model: &Model) {
         match self {
             Self::Cage(shape) => shape.follow(&model.document),
+            Self::Fill(_) => {}
         }
     }
 }
 
-/// The shape of an exact surface of the document.
+/// The shape of an exact surface of the document. A fill has nothing to show yet: [`follow`] builds it.
 ///
 /// # Errors
 /// What is wrong with its controls.
 pub(crate) fn build(model: &Model, id: SurfaceId, revision: u64) -> Result<PatchShape, ModelError> {
+    if let Some(fill) = model.document.fills.get(&id) {
+        return Ok(PatchShape::Fill(FillShape::new(fill.style, revision)));
+    }
     let Some(cage) = model.document.cages.get(&id) else { return Err(ModelError::NoSurface(id)) };
     CageShape::new(id, cage, &model.document, revision).map(PatchShape::Cage)
 }
 
-/// Brings every exact surface up to date with its controls. One that cannot follow stays as it was.
-pub(crate) fn follow(model: &mut Model) {
+/// Brings every exact surface up to date with its controls, and with the fair surfaces beside it, of which the relaxer knows the
+/// planes. One that cannot follow stays as it was.
+pub(crate) fn follow(model: &mut Model, relaxer: Option<&Relaxer>) {
     for id in model.patches.keys().copied().collect::<Vec<_>>() {
         // Taken out while it looks at the model, so that nobody else holds it and it need not be copied.
         let Some(mut shape) = model.patches.remove(&id) else { continue };
@@ -133,4 +154,5 @@ pub(crate) fn follow(model: &mut Model) {
         }
         model.patches.insert(id, shape);
     }
+    fill::follow(model, relaxer);
 }

@@ -73,6 +73,11 @@ pub(crate) fn unite(model: &mut Model, id: SurfaceId, other: SurfaceId) -> Resul
     model.surfaces.remove(&other);
     let document = model.document_mut();
     document.surfaces.remove(&other);
+    for side in document.fills.values_mut().flat_map(|fill| &mut fill.sides) {
+        if side.planes == Some(other) {
+            side.planes = Some(id);
+        }
+    }
     if let Some(own) = document.surfaces.get_mut(&id) {
         own.normals.extend(surface.normals);
         own.ribbons.extend(surface.ribbons);

@@ -89,6 +89,7 @@ pub(crate) fn settle(
         refresh_skeleton(model, name);
     }
     crate::operation::forget_unused_points(model, &before);
+    crate::operation::forget_lost_planes(model);
     model.document.validate()?;
     Ok(made)
 }

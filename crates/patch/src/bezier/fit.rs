@@ -1,7 +1,7 @@
 //! A Bézier curve through the ends of a polyline and as near as possible to what lies between: least squares at
 //! chord-length parameters (Farin, *Curves and Surfaces for CAGD*, section 9.2).
 
-use super::curve_point;
+use super::{curve_derivative, curve_point};
 use crate::basis;
 use ductile_solver::SymmetricFactor;
 use glam::DVec3;
@@ -88,6 +88,93 @@ pub fn fit_curve(polyline: &[DVec3], degree: usize) -> Result<CurveFit, FitError
     Ok(CurveFit { points, parameters, deviation })
 }
 
+/// The same with the directions in which the curve leaves its first end and arrives at its last, which it then has exactly; and with
+/// parameters at which it comes nearest to the points. Where that would turn an end round, or a direction has no length, the curve is that of [`fit_curve`].
+///
+/// # Errors
+/// See [`FitError`].
+pub fn fit_curve_along(
+    polyline: &[DVec3],
+    degree: usize,
+    directions: [DVec3; 2],
+) -> Result<CurveFit, FitError> {
+    let plain = fit_curve(polyline, degree)?;
+    let [Some(leaves), Some(arrives)] = directions.map(DVec3::try_normalize) else { return Ok(plain) };
+    if degree < 3 {
+        return Ok(plain);
+    }
+    let mut best = plain.clone();
+    let mut parameters = plain.parameters.clone();
+    for round in 0..ROUNDS {
+        let Some(points) = along(polyline, degree, [leaves, arrives], &parameters) else { break };
+        let off = polyline.iter().zip(&parameters).map(|(point, &u)| point.distance(curve_point(&points, u)));
+        let deviation = off.fold(0.0, f64::max);
+        if round == 0 || deviation < best.deviation {
+            best = CurveFit { points, parameters: parameters.clone(), deviation };
+        }
+        if !corrected(polyline, &best.points, &mut parameters) {
+            break;
+        }
+    }
+    Ok(best)
+}
+
+/// Rounds of fits, each at the parameters at which the one before comes nearest to the places.
+const ROUNDS: usize = 6;
+
+/// Moves parameters towards those of the nearest points of a curve by a step of Newton's (J. Hoschek, *Intrinsic parametrization for
+/// approximation*, 1988); not if they would change their order.
+fn corrected(polyline: &[DVec3], points: &[DVec3], parameters: &mut [f64]) -> bool {
+    let ends = parameters.len() - 1;
+    let mut moved = parameters.to_vec();
+    for (point, u) in polyline.iter().zip(&mut moved).take(ends).skip(1) {
+        let along = curve_derivative(points, *u);
+        *u += (*point - curve_point(points, *u)).dot(along) / along.length_squared();
+    }
+    let is_sound = moved.windows(2).all(|pair| pair[0] < pair[1]);
+    if is_sound {
+        parameters.copy_from_slice(&moved);
+    }
+    is_sound
+}
+
+/// The curve with these directions at its ends that is nearest to places at given parameters, if it does not turn round there.
+fn along(
+    polyline: &[DVec3],
+    degree: usize,
+    [leaves, arrives]: [DVec3; 2],
+    parameters: &[f64],
+) -> Option<Vec<DVec3>> {
+    let (first, last) = (*polyline.first()?, *polyline.last()?);
+    // The unknowns: how far the two points beside the ends are from them, then the coordinates of those between.
+    let count = 2 + 3 * (degree - 3);
+    let (mut matrix, mut right) = (vec![0.0; count * count], vec![0.0; count]);
+    for (point, &u) in polyline.iter().zip(parameters) {
+        let weights = basis(degree, u);
+        let rest =
+            *point - first * (weights[0] + weights[1]) - last * (weights[degree] + weights[degree - 1]);
+        let ends = [leaves * weights[1], -arrives * weights[degree - 1]];
+        let inner = (2..degree - 1).flat_map(|j| DVec3::AXES.map(|axis| axis * weights[j]));
+        let columns: Vec<DVec3> = ends.into_iter().chain(inner).collect();
+        for (row, one) in columns.iter().enumerate() {
+            right[row] += one.dot(rest);
+            for (column, other) in columns.iter().enumerate().take(row + 1) {
+                matrix[row * count + column] += one.dot(*other);
+            }
+        }
+    }
+    let places = (0..count).flat_map(|row| (0..=row).map(move |column| (row, column)));
+    let entries: Vec<_> = places.map(|(row, column)| (row, column, matrix[row * count + column])).collect();
+    let mut factor = SymmetricFactor::new(count, &entries).ok()?;
+    factor.solve(&mut right);
+    if !(right.iter().all(|value| value.is_finite()) && right[0] > 0.0 && right[1] > 0.0) {
+        return None;
+    }
+    let inner = right[2..].chunks_exact(3).map(DVec3::from_slice);
+    let before_last = last - arrives * right[1];
+    Some([first, first + leaves * right[0]].into_iter().chain(inner).chain([before_last, last]).collect())
+}
+
 /// The share of the length up to each point; none if there is no length.
 fn chord_lengths(polyline: &[DVec3]) -> Option<Vec<f64>> {
     let mut lengths = vec![0.0];
@@ -151,6 +238,27 @@ mod tests {
                 assert!(cost(&other) > cost(&fit.points));
             }
         }
+    }
+
+    #[test]
+    fn given_directions_are_met_exactly_and_the_curve_stays_near() {
+        let at = |a: f64| DVec3::new(libm::cos(a), libm::sin(a), 0.3 * a);
+        let arc: Vec<DVec3> = (0..=40).map(|k| at(f64::from(k) * 0.03)).collect();
+        let along = |a: f64| DVec3::new(-libm::sin(a), libm::cos(a), 0.3);
+        for degree in [3, 4, 5, 7] {
+            let fit = fit_curve_along(&arc, degree, [along(0.0) * 7.0, along(1.2)]).unwrap();
+            assert_eq!((fit.points.len(), fit.points[0], fit.points[degree]), (degree + 1, arc[0], arc[40]));
+            let ends = [fit.points[1] - fit.points[0], fit.points[degree] - fit.points[degree - 1]];
+            for (end, direction) in ends.into_iter().zip([along(0.0), along(1.2)]) {
+                assert!(end.normalize_or_zero().distance(direction.normalize_or_zero()) < 1e-13);
+            }
+            let plain = fit_curve(&arc, degree).unwrap().deviation;
+            assert!(fit.deviation < 4.0 * plain + 1e-12, "{degree}: {:e} {plain:e}", fit.deviation);
+        }
+        // A direction that leads away is no use.
+        let plain = fit_curve(&arc, 5).unwrap();
+        assert_eq!(fit_curve_along(&arc, 5, [-along(0.0), along(1.2)]).unwrap(), plain);
+        assert_eq!(fit_curve_along(&arc, 5, [DVec3::ZERO, along(1.2)]).unwrap(), plain);
     }
 
     #[test]

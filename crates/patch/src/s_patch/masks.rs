@@ -98,7 +98,7 @@ impl Masks {
         clippy::cast_possible_truncation,
         reason = "there are at most 300000 labels with few neighbours each"
     )]
-    fn new(sides: usize, depth: usize, join: Join, fill: Fill) -> Result<Self, super::BuildError> {
+    pub(super) fn new(sides: usize, depth: usize, join: Join, fill: Fill) -> Result<Self, super::BuildError> {
         let labels = Labels::new(sides, depth)?;
         let is_free = |rank: &usize| match join {
             Join::Tangent => labels.kind(*rank) == LabelKind::Interior,
@@ -176,6 +176,18 @@ impl Masks {
 
     /// Places the free control points; what they hold before is of no account.
     pub(super) fn fill(&mut self, points: &mut [DVec3]) -> Result<(), MaskError> {
+        let mut factor = self.factor.take();
+        let filled = self.fill_by(factor.as_mut(), points);
+        self.factor = factor;
+        filled
+    }
+
+    /// The same for masks that several hold: the factor, which keeps notes while it solves, is copied.
+    pub(super) fn fill_shared(&self, points: &mut [DVec3]) -> Result<(), MaskError> {
+        self.fill_by(self.factor.clone().as_mut(), points)
+    }
+
+    fn fill_by(&self, factor: Option<&mut SymmetricFactor>, points: &mut [DVec3]) -> Result<(), MaskError> {
         if self.free.is_empty() {
             return Ok(());
         }
@@ -186,7 +198,7 @@ impl Masks {
         let mut right = vec![DVec3::ZERO; self.free.len()];
         self.apply(points, &mut Vec::new(), &mut right);
         right.iter_mut().for_each(|value| *value = -*value);
-        let solution = match &mut self.factor {
+        let solution = match factor {
             Some(factor) => solve_factored(factor, &right),
             None => self.iterate(&right),
         };

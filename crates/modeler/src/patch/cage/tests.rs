@@ -151,7 +151,7 @@ fn only_what_a_moved_vertex_enters_is_evaluated_again() {
     let home = modeler.model().document.points[&PointId(700)];
     for k in 1..5 {
         step(&mut modeler, home + DVec3::Z * (0.1 * f64::from(k)));
-        let PatchShape::Cage(shape) = &*modeler.model().patches[&ONE];
+        let PatchShape::Cage(shape) = &*modeler.model().patches[&ONE] else { panic!("a cage") };
         // The vertex enters the four by four quads about it.
         let (evaluated, all) = (shape.evaluated(), shape.positions().len());
         assert!(evaluated > 0 && 1800 * evaluated <= 20 * all, "{evaluated} of {all}");

@@ -1,0 +1,377 @@
+//! A patch that fills a loop of curves: an S-patch between ribbons (P. Salvi, *G1 hole filling with S-patches made easy*, 2020).
+//!
+//! The sides become Bézier curves, least squares with the corners met; the ribbons lie in the tangent planes that the document
+//! names as well as they can, and are fair where it names none. It takes as few sums as a frame can bear, so a fill follows its
+//! curves and its neighbours in every frame. Fills whose planes come from others are done after those.
+
+mod error;
+mod planes;
+mod side;
+#[cfg(test)]
+mod tests;
+
+pub use error::FillError;
+pub(crate) use planes::corners;
+pub(crate) use side::{Drawn, Side, places};
+
+use super::{NetLines, PatchShape};
+use crate::model::Model;
+use crate::relax::Relaxer;
+use crate::shape::edit;
+use ductile_patch::s_patch::{Fill as Rule, Join, PatchKind, SPatch, Tessellated};
+use ductile_patch::{PlaneSample, Ribbon, RibbonLoop, curve_point, elevated, ribbons_along};
+use ductile_spec::{
+    CurveStretch, FILL_RESOLUTION, Fill, FillFigures, FillInterior, FillJoin, FillStyle, SurfaceId,
+};
+use glam::DVec3;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+/// More control points than this do not follow a hand.
+const MOST_POINTS: usize = 13_000;
+/// A degree that nobody chose leaves this many control points at the most, down to the least degree.
+const EASY_POINTS: f64 = 2_000.0;
+const DEGREES: [usize; 3] = [5, 4, 3];
+/// Sine of the least angle by which a loop turns at a corner, and of which it stays away from turning back: 5°.
+const FLAT: f64 = 0.087;
+
+/// A fill, as its curves were when it last could follow them.
+#[derive(Clone, Debug)]
+pub struct FillShape {
+    /// What it was last made from, or should have been.
+    drawn: Vec<Drawn>,
+    style: FillStyle,
+    planes: Vec<PlaneSample>,
+    /// Its sides, and its ribbons as they would be without planes.
+    pub(crate) sides: Vec<Side>,
+    base: Option<RibbonLoop>,
+    pub(crate) built: Option<Built>,
+    /// Its curves have no fit: what it has is of others.
+    is_behind: bool,
+    /// Why it does not follow.
+    pub(crate) failure: Option<FillError>,
+    /// Names this connectivity.
+    pub(crate) revision: u64,
+}
+
+/// A patch and its mesh.
+#[derive(Clone, Debug)]
+pub(crate) struct Built {
+    kind: Arc<PatchKind>,
+    pub(crate) ribbons: RibbonLoop,
+    pub(crate) patch: SPatch,
+    mesh: Tessellated,
+    net: (Vec<DVec3>, Vec<[u32; 2]>),
+    /// The largest angle to a plane that was asked for, in radians.
+    angle: f64,
+}
+
+impl FillShape {
+    /// One that has followed nothing yet.
+    pub(super) fn new(style: FillStyle, revision: u64) -> Self {
+        Self {
+            drawn: Vec::new(),
+            style,
+            planes: Vec::new(),
+            sides: Vec::new(),
+            base: None,
+            built: None,
+            is_behind: false,
+            failure: None,
+            revision,
+        }
+    }
+
+    pub(super) fn positions(&self) -> &[DVec3] {
+        self.built.as_ref().map_or(&[], |built| &built.mesh.positions)
+    }
+
+    pub(super) fn normals(&self) -> &[DVec3] {
+        self.built.as_ref().map_or(&[], |built| &built.mesh.normals)
+    }
+
+    pub(super) fn triangles(&self) -> &[[u32; 3]] {
+        self.built.as_ref().map_or(&[], |built| built.kind.triangles())
+    }
+
+    /// The ribbons: what there is to see of the control points that a designer has a hand in.
+    pub(super) fn net(&self) -> NetLines<'_> {
+        self.built.as_ref().map_or((&[], &[]), |built| (&built.net.0, &built.net.1))
+    }
+
+    /// How well it follows its curves and planes.
+    pub(crate) fn figures(&self, surface: SurfaceId) -> FillFigures {
+        let count = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
+        let built = self.built.as_ref();
+        FillFigures {
+            surface,
+            sides: count(built.map_or(self.drawn.len(), |built| built.ribbons.sides())),
+            degree: count(built.map_or(0, |built| built.ribbons.degree())),
+            control_points: count(built.map_or(0, |built| built.patch.points().len())),
+            curve_deviation: self.sides.iter().map(|side| side.fit.deviation).fold(0.0, f64::max),
+            plane_deviation: built.map_or(0.0, |built| built.angle.to_degrees()),
+            stuck: self.failure.map(|failure| failure.to_string()),
+        }
+    }
+
+    /// New curves: their fits, and the ribbons that they have by themselves.
+    fn redraw(&mut self, fill: &Fill, drawn: Vec<Drawn>) {
+        self.drawn = drawn;
+        self.style = fill.style;
+        let fitted = fitted(fill, &self.drawn);
+        self.is_behind = fitted.is_err();
+        self.failure = fitted.as_ref().err().copied();
+        if let Ok((sides, base)) = fitted {
+            (self.sides, self.base) = (sides, Some(base));
+        }
+    }
+
+    /// New planes, or new curves: the patch.
+    fn rebuild(&mut self, planes: Vec<PlaneSample>, known: impl Fn(&Wanted) -> Option<Arc<PatchKind>>) {
+        self.planes = planes;
+        let Some(base) = &self.base else { return };
+        let built = built(base, &self.sides, self.style, &self.planes, known);
+        self.failure = built.as_ref().err().copied();
+        if let Ok(built) = built {
+            self.built = Some(built);
+        }
+    }
+}
+
+/// Which kind of patch is wanted: sides, degree, join, rule, resolution.
+type Wanted = (usize, usize, Join, Rule, usize);
+
+fn join(style: FillStyle) -> Join {
+    match style.join {
+        FillJoin::Tangent => Join::Tangent,
+        FillJoin::Position => Join::Position,
+    }
+}
+
+/// The degree of a fill: what was chosen, or the highest that leaves it light.
+pub(crate) fn degree(fill: &Fill) -> usize {
+    let is_light = |degree: &usize| {
+        PatchKind::control_points(fill.sides.len(), *degree, join(fill.style)) <= EASY_POINTS
+    };
+    let chosen = fill.style.degree.map(usize::from);
+    chosen.unwrap_or_else(|| DEGREES.into_iter().find(is_light).unwrap_or(DEGREES[2]))
+}
+
+/// The degree of the Bézier curve along each stretch: the lowest among the fills that have it, so that all have the same curve.
+fn degrees(model: &Model) -> BTreeMap<CurveStretch, usize> {
+    let mut degrees = BTreeMap::new();
+    for fill in model.document.fills.values() {
+        let own = degree(fill);
+        for side in &fill.sides {
+            let Some(curve) = model.document.curves.get(&side.curve) else { continue };
+            let lowest = degrees.entry(side.stretch(curve).0).or_insert(own);
+            *lowest = own.min(*lowest);
+        }
+    }
+    degrees
+}
+
+/// Sides with their Bézier curves, and ribbons along them without regard to planes.
+fn fitted(fill: &Fill, drawn: &[Drawn]) -> Result<(Vec<Side>, RibbonLoop), FillError> {
+    if !fill.ribbons.is_empty() {
+        let ribbons = fill.ribbons.iter().map(|r| Ribbon { row0: r.row0.clone(), row1: r.row1.clone() });
+        let ribbons: Vec<Ribbon> = ribbons.collect();
+        let ring = match fill.style.join {
+            FillJoin::Tangent => RibbonLoop::new(&ribbons)?,
+            FillJoin::Position => {
+                RibbonLoop::of_curves(&ribbons.into_iter().map(|ribbon| ribbon.row0).collect::<Vec<_>>())?
+            }
+        };
+        return Ok((Vec::new(), ring));
+    }
+    let sides = drawn.iter().cloned().map(Side::new).collect::<Result<Vec<_>, _>>()?;
+    let own = degree(fill);
+    let rows: Vec<Vec<DVec3>> = sides
+        .iter()
+        .map(|side| (side.fit.points.len() - 1..own).fold(side.row(), |row, _| elevated(&row)))
+        .collect();
+    let ring = match fill.style.join {
+        FillJoin::Tangent => {
+            check_corners(fill, &rows)?;
+            ribbons_along(&rows, &[])?.ribbons
+        }
+        FillJoin::Position => RibbonLoop::of_curves(&rows)?,
+    };
+    Ok((sides, ring))
+}
+
+/// Refuses corners at which a patch would have no tangent plane.
+fn check_corners(fill: &Fill, rows: &[Vec<DVec3>]) -> Result<(), FillError> {
+    for (at, (side, row)) in fill.sides.iter().zip(rows).enumerate() {
+        let before = &rows[(at + rows.len() - 1) % rows.len()];
+        let [.., from, to] = before[..] else { continue };
+        let (arrives, leaves) = ((to - from).normalize_or_zero(), (row[1] - row[0]).normalize_or_zero());
+        let sine = arrives.cross(leaves).length();
+        if sine.is_nan() || sine < FLAT {
+            let degrees = libm::atan2(sine, arrives.dot(leaves)).to_degrees();
+            return Err(FillError::FlatCorner { point: side.from, degrees });
+        }
+    }
+    Ok(())
+}
+
+fn built(
+    base: &RibbonLoop,
+    sides: &[Side],
+    style: FillStyle,
+    planes: &[PlaneSample],
+    known: impl Fn(&Wanted) -> Option<Arc<PatchKind>>,
+) -> Result<Built, FillError> {
+    let (mut ribbons, mut angle) = (base.clone(), 0.0);
+    if style.join == FillJoin::Tangent && !planes.is_empty() {
+        let rows: Vec<Vec<DVec3>> = base.ribbons().iter().map(|ribbon| ribbon.row0.clone()).collect();
+        let planed = ribbons_along(&rows, planes)?;
+        angle = planed.angles.iter().copied().fold(0.0, f64::max);
+        ribbons = planed.ribbons;
+    }
+    let rule = match style.interior {
+        FillInterior::Biharmonic => Rule::Biharmonic,
+        FillInterior::Harmonic => Rule::Harmonic,
+    };
+    let resolution = usize::from(style.resolution.unwrap_or(FILL_RESOLUTION));
+    let wanted = (ribbons.sides(), ribbons.degree(), join(style), rule, resolution);
+    if PatchKind::control_points(wanted.0, wanted.1, wanted.2) > MOST_POINTS as f64 {
+        return Err(FillError::TooLarge { sides: wanted.0, degree: wanted.1, limit: MOST_POINTS });
+    }
+    let kind = match known(&wanted) {
+        Some(kind) => kind,
+        None => Arc::new(PatchKind::new(wanted.0, wanted.1, wanted.2, wanted.3, wanted.4)?),
+    };
+    let lost = FillError::Kind(ductile_patch::s_patch::TessellationError::Resolution(resolution).into());
+    let patch = kind.filling(&ribbons)?.ok_or(lost)?;
+    let mut mesh = kind.evaluate(&patch).ok_or(lost)?;
+    // Evaluated on the control curve's own Bézier curve, so that patches with a side in common have its points in common.
+    for (at, side) in sides.iter().enumerate() {
+        for step in 0..=resolution {
+            let along = if side.drawn.back { resolution - step } else { step };
+            let vertex = kind.grid().on_side(at, step);
+            mesh.positions[vertex] = curve_point(&side.fit.points, along as f64 / resolution as f64);
+        }
+    }
+    let net = net(&ribbons, style);
+    Ok(Built { kind, ribbons, patch, mesh, net, angle })
+}
+
+/// The rows of ribbons, and the legs between them.
+fn net(ribbons: &RibbonLoop, style: FillStyle) -> (Vec<DVec3>, Vec<[u32; 2]>) {
+    let (mut places, mut edges) = (Vec::new(), Vec::new());
+    for ribbon in ribbons.ribbons() {
+        let rows: &[&Vec<DVec3>] = match style.join {
+            FillJoin::Tangent => &[&ribbon.row0, &ribbon.row1],
+            FillJoin::Position => &[&ribbon.row0],
+        };
+        let first = u32::try_from(places.len()).unwrap_or(0);
+        let count = u32::try_from(ribbon.row0.len()).unwrap_or(0);
+        for (row, places_of_row) in (0..).zip(rows) {
+            places.extend_from_slice(places_of_row);
+            edges.extend((1..count).map(|k| [first + row * count + k - 1, first + row * count + k]));
+        }
+        if rows.len() == 2 {
+            edges.extend((0..count).map(|k| [first + k, first + count + k]));
+        }
+    }
+    (places, edges)
+}
+
+/// The shape of a fill.
+pub(crate) fn shape(model: &Model, id: SurfaceId) -> Option<&FillShape> {
+    match model.patches.get(&id).map(|shape| &**shape) {
+        Some(PatchShape::Fill(shape)) => Some(shape),
+        _ => None,
+    }
+}
+
+/// Changes the shape of a fill; it is copied if somebody else holds it.
+fn change(model: &mut Model, id: SurfaceId, how: impl FnOnce(&mut FillShape)) {
+    if let Some(PatchShape::Fill(shape)) = model.patches.get_mut(&id).map(edit) {
+        how(shape);
+    }
+}
+
+/// Brings all fills up to date with their curves and with what lies beside them. One that cannot follow stays as it was, and says
+/// why. Without a relaxer nothing is known of the planes of fair surfaces.
+pub(crate) fn follow(model: &mut Model, relaxer: Option<&Relaxer>) {
+    if model.document.fills.is_empty() {
+        return;
+    }
+    let document = Arc::clone(&model.document);
+    let (degrees, corner_planes) = (degrees(model), side::planes(model));
+    let mut is_new: BTreeSet<SurfaceId> = BTreeSet::new();
+    for (id, fill) in &document.fills {
+        let Some(shape) = shape(model, *id) else { continue };
+        let drawn = side::all_drawn(model, &corner_planes, fill, |stretch| {
+            degrees.get(stretch).copied().unwrap_or_else(|| degree(fill))
+        });
+        match drawn {
+            Ok(drawn) => {
+                let is_first = shape.base.is_none() && shape.failure.is_none();
+                if is_first || drawn != shape.drawn || fill.style != shape.style {
+                    change(model, *id, |shape| shape.redraw(fill, drawn));
+                    is_new.insert(*id);
+                }
+            }
+            Err(failure) if shape.failure != Some(failure) => {
+                change(model, *id, |shape| {
+                    shape.drawn.clear();
+                    (shape.is_behind, shape.failure) = (true, Some(failure));
+                });
+            }
+            Err(_) => {}
+        }
+    }
+    let mut done: BTreeSet<SurfaceId> = BTreeSet::new();
+    let waits = |fill: &Fill, done: &BTreeSet<SurfaceId>| {
+        let mut on = fill.sides.iter().filter_map(|side| side.planes);
+        on.any(|on| document.fills.contains_key(&on) && !done.contains(&on))
+    };
+    // The document is valid, so there is always one that waits for none; that this ends does not hang on it.
+    for _ in 0..document.fills.len() {
+        let ready: Vec<SurfaceId> = document
+            .fills
+            .iter()
+            .filter(|(id, fill)| !done.contains(id) && !waits(fill, &done))
+            .map(|(id, _)| *id)
+            .collect();
+        for id in ready {
+            done.insert(id);
+            put_in_planes(model, relaxer, id, is_new.contains(&id));
+        }
+        if done.len() == document.fills.len() {
+            break;
+        }
+    }
+}
+
+/// Gives a fill the planes that there are for it now, and builds it if they or its curves are new.
+fn put_in_planes(model: &mut Model, relaxer: Option<&Relaxer>, id: SurfaceId, is_new: bool) {
+    let planes = planes::of(model, relaxer, id);
+    let Some(shape) = shape(model, id) else { return };
+    if shape.is_behind || shape.base.is_none() || !is_new && planes == shape.planes {
+        return;
+    }
+    let kinds: Vec<Arc<PatchKind>> = model
+        .document
+        .fills
+        .keys()
+        .filter_map(|other| Some(Arc::clone(&self::shape(model, *other)?.built.as_ref()?.kind)))
+        .collect();
+    let known = |&(sides, degree, join, rule, resolution): &Wanted| {
+        kinds.iter().find(|kind| kind.is_for(sides, degree, join, rule, resolution)).map(Arc::clone)
+    };
+    let before = shape.built.as_ref().map(|built| Arc::clone(&built.kind));
+    change(model, id, |shape| shape.rebuild(planes, known));
+    let after = self::shape(model, id).and_then(|shape| Some(Arc::clone(&shape.built.as_ref()?.kind)));
+    let is_alike = match (&before, &after) {
+        (Some(before), Some(after)) => Arc::ptr_eq(before, after),
+        (before, after) => before.is_none() && after.is_none(),
+    };
+    if !is_alike {
+        let revision = model.next_revision();
+        change(model, id, |shape| shape.revision = revision);
+    }
+}

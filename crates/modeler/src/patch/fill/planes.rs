@@ -1,0 +1,179 @@
+//! The tangent planes along the sides of a fill: those of the surface beside it, where the document names one, and planes that two
+//! fills agree on, where neither does.
+//!
+//! An agreed plane lies half way between what the two ribbons would have by themselves. At a corner all curves of fills there
+//! should lie in one plane (see `modeler/network`), and the agreed planes lead up to that one.
+
+use super::{Side, shape};
+use crate::model::Model;
+use crate::relax::Relaxer;
+use ductile_patch::s_patch::Domain;
+use ductile_patch::{PlaneSample, RibbonLoop, curve_derivative, plane_of_directions};
+use ductile_spec::{CurveId, CurveStretch, Document, Fill, FillJoin, PointId, SurfaceId};
+use glam::DVec3;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Places along a side at which planes are asked for.
+const PLACES: usize = 32;
+/// Two ribbons whose sum of normals is shorter than this fold back on one another by more than 150°: they agree on nothing.
+const FOLDED: f64 = 0.5;
+/// Sine of the angle up to which curves at a corner count as lying in one plane: 20°.
+pub(super) const COPLANAR: f64 = 0.342;
+
+/// The planes of all sides of a fill as things are now.
+pub(super) fn of(model: &Model, relaxer: Option<&Relaxer>, id: SurfaceId) -> Vec<PlaneSample> {
+    let (Some(fill), Some(own)) = (model.document.fills.get(&id), shape(model, id)) else {
+        return Vec::new();
+    };
+    if fill.style.join == FillJoin::Position || own.sides.len() != fill.sides.len() {
+        return Vec::new();
+    }
+    let mut planes = Vec::new();
+    for (at, (side, drawn)) in fill.sides.iter().zip(&own.sides).enumerate() {
+        let normals = match side.planes {
+            Some(beside) if model.surfaces.contains_key(&beside) => of_fair(model, relaxer, beside, drawn),
+            Some(beside) => of_fill(model, beside, drawn),
+            None => agreed(model, id, at, drawn),
+        };
+        let on_side = |(u, normal): (f64, DVec3)| {
+            // What runs along the curve says nothing of the plane.
+            let along = curve_derivative(&drawn.fit.points, u).normalize_or_zero();
+            PlaneSample { side: at, u: drawn.parameter(u), normal: normal - along * along.dot(normal) }
+        };
+        planes.extend(normals.into_iter().map(on_side));
+    }
+    planes
+}
+
+fn places() -> impl Iterator<Item = f64> {
+    (0..=PLACES).map(|place| place as f64 / PLACES as f64)
+}
+
+/// The normals of a fair surface at the samples of a stretch.
+fn of_fair(model: &Model, relaxer: Option<&Relaxer>, beside: SurfaceId, side: &Side) -> Vec<(f64, DVec3)> {
+    let Some(shape) = model.surfaces.get(&beside) else { return Vec::new() };
+    let Some(bound) = relaxer.and_then(|relaxer| relaxer.surface(beside, shape)) else { return Vec::new() };
+    let curve: CurveId = side.drawn.stretch.curve;
+    let Some(embedded) = shape.embeddings.iter().find(|e| e.curve == curve) else { return Vec::new() };
+    let sample = |edge: usize| {
+        let vertex = embedded.vertices.get((side.drawn.first + edge) % embedded.vertices.len())?;
+        let normal = bound.normals().get(bound.node(*vertex) as usize)?;
+        Some((side.parameter_of_sample(edge), *normal))
+    };
+    (0..=side.drawn.edges).filter_map(sample).collect()
+}
+
+/// The side of a fill that is this stretch, with its number.
+pub(crate) fn side_on(model: &Model, fill: SurfaceId, stretch: CurveStretch) -> Option<(usize, &Side)> {
+    shape(model, fill)?.sides.iter().enumerate().find(|(_, side)| side.drawn.stretch == stretch)
+}
+
+/// The normals of another fill along a stretch, as it is built.
+fn of_fill(model: &Model, beside: SurfaceId, side: &Side) -> Vec<(f64, DVec3)> {
+    let (Some((at, there)), Some(built)) = (
+        side_on(model, beside, side.drawn.stretch),
+        shape(model, beside).and_then(|shape| shape.built.as_ref()),
+    ) else {
+        return Vec::new();
+    };
+    let is_tangent =
+        model.document.fills.get(&beside).is_some_and(|fill| fill.style.join == FillJoin::Tangent);
+    let domain = Domain::new(built.patch.sides());
+    let normal = |u: f64| {
+        let own = there.parameter(u);
+        if is_tangent {
+            built.ribbons.ribbons().get(at)?.normal(own)
+        } else {
+            built.patch.at(&domain, domain.on_side(at, own))?.normal()
+        }
+    };
+    places().filter_map(|u| Some((u, normal(u)?))).collect()
+}
+
+/// The other fill that has this stretch and names no planes for it either, if there is exactly one.
+fn partner(model: &Model, id: SurfaceId, stretch: CurveStretch) -> Option<SurfaceId> {
+    let has = |fill: &Fill| {
+        fill.style.join == FillJoin::Tangent
+            && fill.sides.iter().any(|side| {
+                let curve = model.document.curves.get(&side.curve);
+                side.planes.is_none() && curve.is_some_and(|curve| side.stretch(curve).0 == stretch)
+            })
+    };
+    let mut others = model.document.fills.iter().filter(|(other, fill)| **other != id && has(fill));
+    let (only, _) = others.next()?;
+    others.next().is_none().then_some(*only)
+}
+
+/// What two fills agree on along a stretch.
+fn agreed(model: &Model, id: SurfaceId, at: usize, side: &Side) -> Vec<(f64, DVec3)> {
+    let stretch = side.drawn.stretch;
+    let found = partner(model, id, stretch).and_then(|other| {
+        let (place, there) = side_on(model, other, stretch)?;
+        Some((shape(model, other)?.base.as_ref()?, place, there))
+    });
+    let (Some((base, place, there)), Some(own)) =
+        (found, shape(model, id).and_then(|shape| shape.base.as_ref()))
+    else {
+        return Vec::new();
+    };
+    // Normals as they would be if the side ran with the curve; beyond a smooth seam that is the other way up.
+    let normal = |ring: &RibbonLoop, place: usize, side: &Side, u: f64| {
+        let normal = ring.ribbons().get(place)?.normal(side.parameter(u))?;
+        Some(if side.drawn.back { -normal } else { normal })
+    };
+    let between = |u: f64| {
+        let sum = normal(own, at, side, u)? - normal(base, place, there, u)?;
+        (sum.length() > FOLDED).then(|| sum.try_normalize()).flatten()
+    };
+    let ends = [(stretch.from, 0.0), (stretch.to, 1.0)].map(|(point, u)| {
+        let (wanted, now) = (plane_at(model, point)?, between(u)?);
+        Some(if wanted.dot(now) < 0.0 { -wanted - now } else { wanted - now })
+    });
+    let [first, last] = ends.map(Option::unwrap_or_default);
+    let lead = |u: f64| {
+        // Both bends start at their end with slope zero, so that the planes do not turn in haste.
+        let ease = |t: f64| (1.0 - t) * (1.0 - t) * (1.0 + 2.0 * t);
+        Some((u, between(u)? + first * ease(u) + last * ease(1.0 - u)))
+    };
+    places().filter_map(lead).collect()
+}
+
+/// The corners at which fills join smoothly along a curve, with all curves of those fills there: they have to lie in one plane.
+pub(crate) fn corners(document: &Document) -> BTreeMap<PointId, BTreeSet<CurveId>> {
+    let mut on: BTreeMap<CurveStretch, Vec<(&Fill, usize)>> = BTreeMap::new();
+    for fill in document.fills.values().filter(|fill| fill.style.join == FillJoin::Tangent) {
+        for (at, side) in fill.sides.iter().enumerate() {
+            let Some(curve) = document.curves.get(&side.curve) else { continue };
+            on.entry(side.stretch(curve).0).or_default().push((fill, at));
+        }
+    }
+    let mut corners: BTreeMap<PointId, BTreeSet<CurveId>> = BTreeMap::new();
+    for (stretch, fills) in on.into_iter().filter(|(_, fills)| fills.len() == 2) {
+        for (fill, at) in fills {
+            let count = fill.sides.len();
+            let (before, after) = (&fill.sides[(at + count - 1) % count], &fill.sides[(at + 1) % count]);
+            for (point, other) in [(fill.sides[at].from, before), (fill.sides[at].to, after)] {
+                corners.entry(point).or_default().extend([stretch.curve, other.curve]);
+            }
+        }
+    }
+    corners
+}
+
+/// The normal of the plane in which all curves of fills at a corner lie, if they nearly do.
+fn plane_at(model: &Model, point: PointId) -> Option<DVec3> {
+    let mut leaving: BTreeMap<CurveStretch, DVec3> = BTreeMap::new();
+    for id in model.document.fills.keys() {
+        for side in shape(model, *id).into_iter().flat_map(|shape| &shape.sides) {
+            let points = &side.fit.points;
+            let stretch = side.drawn.stretch;
+            if stretch.from == point {
+                leaving.insert(stretch, points[1] - points[0]);
+            } else if stretch.to == point {
+                leaving.insert(stretch, points[points.len() - 2] - points[points.len() - 1]);
+            }
+        }
+    }
+    let directions: Vec<DVec3> = leaving.into_values().collect();
+    plane_of_directions(&directions).filter(|(_, off)| *off < COPLANAR).map(|(normal, _)| normal)
+}
