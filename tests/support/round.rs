@@ -95,19 +95,22 @@ impl Round {
             | Request::OpenLink { .. }
             | Request::OpenExample(_)
             | Request::Import { .. }
-            | Request::New => {
-                let reply = self.bench.send(request.clone());
-                match reply.refused {
-                    None => {
-                        self.held = None;
-                        self.commit();
-                    }
-                    Some(_) => self.is_as(&before),
-                }
-                follows(&self.bench);
-                reply.refused.map(|refusal| refusal.reason)
-            }
+            | Request::New => self.open(request, &before),
         }
+    }
+
+    /// Another document in place of the one before.
+    fn open(&mut self, request: &Request, before: &Model) -> Option<String> {
+        let reply = self.bench.send(request.clone());
+        match reply.refused {
+            None => {
+                self.held = None;
+                self.commit();
+            }
+            Some(_) => self.is_as(before),
+        }
+        follows(&self.bench);
+        reply.refused.map(|refusal| refusal.reason)
     }
 
     fn commit(&mut self) {
