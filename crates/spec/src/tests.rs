@@ -236,6 +236,35 @@ fn normals_and_ribbons_must_be_directions_where_the_surface_has_controls() {
 }
 
 #[test]
+fn of_two_surfaces_at_a_curve_only_one_can_lead() {
+    let curve = CurveId(4);
+    let mut document = sample();
+    let through = document.curves[&curve].through.clone();
+    let side = |k: usize| FillSide {
+        curve,
+        from: through[k % through.len()],
+        to: through[(k + 1) % through.len()],
+        back: false,
+        planes: None,
+    };
+    let fill = Fill { sides: (0..through.len()).map(side).collect(), ..Fill::default() };
+    document.fills.insert(SurfaceId(9), fill);
+    let onto = |onto| Ribbon { onto: Some(onto), ..Ribbon::default() };
+    let surface = document.surfaces.get_mut(&SurfaceId(2)).unwrap();
+    surface.ribbons = [(curve, onto(SurfaceId(9)))].into();
+    assert_eq!(document.validate(), Ok(()));
+    document.fills.get_mut(&SurfaceId(9)).unwrap().sides[1].planes = Some(SurfaceId(2));
+    assert!(matches!(document.validate(), Err(Defect::Ribbon { .. })), "{:?}", document.validate());
+    // Nor can a fair surface go on from a fair one, from nothing, or from directions and a surface at once.
+    document.fills.get_mut(&SurfaceId(9)).unwrap().sides[1].planes = None;
+    let both = Ribbon { cross: [(through[0], DVec3::Z)].into(), ..onto(SurfaceId(9)) };
+    for ribbon in [onto(SurfaceId(2)), onto(SurfaceId(77)), both] {
+        document.surfaces.get_mut(&SurfaceId(2)).unwrap().ribbons = [(curve, ribbon)].into();
+        assert!(matches!(document.validate(), Err(Defect::Ribbon { .. })), "{:?}", document.validate());
+    }
+}
+
+#[test]
 fn a_normal_or_ribbon_given_twice_is_refused() {
     let text = to_compact_text(&sample());
     for (once, twice) in [

@@ -437,6 +437,9 @@ fn validate_planes(id: SurfaceId, surface: &Surface, document: &Document) -> Res
             {
                 return refuse("what it goes on from is no surface over a cage and no fill");
             }
+            Some(other) if takes_planes(document, other, *along, id) => {
+                return refuse("what it goes on from goes on from it: one of the two must lead");
+            }
             None if ribbon.cross.is_empty() => return refuse("it has no direction anywhere"),
             _ => {}
         }
@@ -451,6 +454,12 @@ fn validate_planes(id: SurfaceId, surface: &Surface, document: &Document) -> Res
         }
     }
     Ok(())
+}
+
+/// Whether a fill takes its tangent planes along a curve from a surface.
+fn takes_planes(document: &Document, fill: SurfaceId, curve: CurveId, from: SurfaceId) -> bool {
+    let sides = document.fills.get(&fill).map_or(&[][..], |fill| &fill.sides);
+    sides.iter().any(|side| side.curve == curve && side.planes == Some(from))
 }
 
 fn validate_regions(id: SurfaceId, surface: &Surface, document: &Document) -> Result<(), Defect> {

@@ -237,9 +237,12 @@ impl Page {
                 if field == RESOLUTION {
                     self.change_settings(|settings| settings.resolution = count);
                 } else {
-                    self.change_settings(|settings| match (&mut settings.blend, count) {
-                        (CageBlend::Hermite(order) | CageBlend::Bump(order), Some(count)) => *order = count,
-                        _ => {}
+                    self.change_settings(|settings| {
+                        if let (CageBlend::Hermite(order) | CageBlend::Bump(order), Some(count)) =
+                            (&mut settings.blend, count)
+                        {
+                            *order = count;
+                        }
                     });
                 }
             }
