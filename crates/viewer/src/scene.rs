@@ -262,7 +262,9 @@ impl Scene {
         self.balls.clear();
         self.balls.extend(balls);
         let all = self.structure.surfaces.iter().flat_map(vertices);
-        self.bounds = Ball::around(all.chain(triples(self.part(self.structure.samples_at(), usize::MAX))));
+        // Control nets may reach far beyond what they control, and are no part of the shape.
+        let marks = self.part(self.structure.samples_at(), self.structure.nets_at());
+        self.bounds = Ball::around(all.chain(triples(marks)));
     }
 }
 
