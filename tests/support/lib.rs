@@ -11,7 +11,7 @@ pub mod solved;
 
 use ductile_mesh::validate;
 use ductile_modeler::Modeler;
-use ductile_spec::{Document, Edit, Example, Reply, Request, Step, from_text};
+use ductile_spec::{Document, Edit, Example, Reply, Request, Step, Structure, from_text};
 use glam::DVec3;
 use std::collections::BTreeSet;
 
@@ -22,6 +22,8 @@ pub struct Bench {
     pub modeler: Modeler,
     /// The text of the document after the last act.
     pub document: String,
+    /// What the newest frame is made of.
+    structure: Structure,
 }
 
 impl Default for Bench {
@@ -34,7 +36,7 @@ impl Bench {
     /// An empty one.
     #[must_use]
     pub fn new() -> Self {
-        Self { modeler: Modeler::new(), document: String::new() }
+        Self { modeler: Modeler::new(), document: String::new(), structure: Structure::default() }
     }
 
     /// One with an example open.
@@ -54,6 +56,9 @@ impl Bench {
         let reply = self.modeler.handle(request);
         if let Some(committed) = &reply.committed {
             self.document.clone_from(&committed.document);
+        }
+        if let Some(structure) = &reply.structure {
+            self.structure.clone_from(structure);
         }
         self.check(&asked);
         reply
@@ -112,8 +117,25 @@ impl Bench {
         let samples: usize = model.curves.values().map(|c| c.nodes.len()).sum();
         let exact: usize =
             model.patches.values().map(|p| 6 * p.positions().len() + 3 * p.net().0.len()).sum();
-        let floats = 6 * vertices + exact + 3 * samples + 3 * model.document.points.len();
-        assert_eq!(self.modeler.floats().len(), floats, "a frame misses something after {asked}");
+        // A vertex is made at each foot of a displacement that stands on none, so displaced surfaces have more.
+        let feet: usize = model
+            .document
+            .displacements
+            .values()
+            .flat_map(|d| &d.items)
+            .map(|item| item.foot.places().len())
+            .sum();
+        let least = 6 * vertices + exact + 3 * samples + 3 * model.document.points.len();
+        let floats = self.modeler.floats().len();
+        assert_eq!(
+            floats,
+            self.structure.float_count(),
+            "a frame is not what its structure says after {asked}"
+        );
+        assert!(
+            (least..=least + 6 * feet).contains(&floats),
+            "a frame misses something after {asked}: {floats}"
+        );
         model.document.validate().unwrap_or_else(|defect| panic!("{defect} after {asked}"));
         assert!(model.curves.keys().eq(model.document.curves.keys()), "curves after {asked}");
         assert!(model.surfaces.keys().eq(model.document.surfaces.keys()), "surfaces after {asked}");
