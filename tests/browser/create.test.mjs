@@ -196,6 +196,7 @@ test("every example opens and rests", async () => {
     torus: [0, 0], "party-hat": [-2, 4], "capped-cylinder": [2, 0], "glued-cylinders": [0, 2],
     handle: [-2, 0], "klein-mug": [0, 0], "three-handles": [-4, 0],
     "moebius-strip": [0, 1], spout: [1, 1],
+    "torus-cage": [0, 0], trebol: [-4, 0], icosahedron: [2, 0],
   };
   await withPage({ viewport: wide }, async (page) => {
     let before = await atRest(page);
