@@ -33,14 +33,21 @@ function patch(seen, [x, y], radius = 6) {
   return sum.map((value) => value / (2 * radius + 1) ** 2);
 }
 
-/** The middle of the canvas, where an example that fills the view has its middle. */
-const middle = [wide.width / 2, wide.height / 2];
+/** The middle of the canvas between the panels, where an example that fills the view has its middle. */
+function middleOf(page) {
+  return page.evaluate(() => {
+    const place = (id) => document.getElementById(id).getBoundingClientRect();
+    // Of the lower edge, 60 px are for the status line and the hint.
+    return [(place("tools").right + place("side").left) / 2, (place("bar").bottom + innerHeight - 60) / 2];
+  });
+}
 
 test("mean curvature: a ball has one colour, that of its value in the legend, and the other end's when turned inside out", async () => {
   await withPage({ viewport: wide }, async (page) => {
     await example(page, "ball");
     await page.keyboard.press("Alt+7");
     await untilInspect(page, ({ shading }) => shading === "mean");
+    const middle = await middleOf(page);
     await assertOnCanvas(page, middle);
     const fitted = await page.evaluate(() => ["legend-low", "legend-high"].map((id) => Number(document.getElementById(id).value)));
     assert.ok(fitted[0] < -0.95 && fitted[0] > -1.1 && fitted[1] > -1.05 && fitted[1] < -0.9, `a ball of radius 1: ${fitted}`);
@@ -136,7 +143,8 @@ test("contours lie at even heights, along the axis and at the distance of the le
     await page.keyboard.press("Alt+6");
     await until(page, () => document.getElementById("slice-distance").value === "0.07");
     const { camera } = await untilInspect(page, ({ shading }) => shading === "contours");
-    const lines = async () => crossings(await pixels(page), middle[0] + 5);
+    const column = Math.round((await middleOf(page))[0]) + 5;
+    const lines = async () => crossings(await pixels(page), column);
     await type(page, "slice-distance", "0.1");
     await drawn(page);
     const tenths = await lines();
@@ -170,13 +178,13 @@ function edges(seen) {
   return count;
 }
 
-/** How many thin dark lines a column of the picture crosses on the ball in its middle. */
+/** How many thin dark lines a column of the picture crosses on the ball in its middle: dark between two like places, which the ball's own outline is not. */
 function crossings(seen, x) {
   let count = 0;
   let was = false;
   for (let y = 60; y < seen.height - 60; y += 1) {
-    const around = (at(seen, x, y - 4)[1] + at(seen, x, y + 4)[1]) / 2;
-    const dark = at(seen, x, y)[1] < around - 25;
+    const around = [at(seen, x, y - 4)[1], at(seen, x, y + 4)[1]];
+    const dark = at(seen, x, y)[1] < Math.min(...around) - 25;
     count += dark && !was ? 1 : 0;
     was = dark;
   }

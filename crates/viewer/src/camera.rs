@@ -163,6 +163,8 @@ pub struct Camera {
     pose: Pose,
     orthographic: bool,
     viewport: Vec2,
+    /// Upper left and lower right corner of the part of the canvas that no panel covers; `None`: all of it.
+    free: Option<(Vec2, Vec2)>,
     stored: Option<(Pose, bool)>,
     flight: Option<Flight>,
     /// A ball around the scene: the orthographic depth range holds it.
@@ -175,6 +177,7 @@ impl Default for Camera {
             pose: Pose::default(),
             orthographic: false,
             viewport: Vec2::new(1280.0, 720.0),
+            free: None,
             stored: None,
             flight: None,
             extent: (Vec3::ZERO, 1.0),
@@ -183,15 +186,30 @@ impl Default for Camera {
 }
 
 impl Camera {
-    /// Sets the size of the canvas in CSS pixels.
+    /// Sets the size of the canvas in CSS pixels; all of it is free until [`Self::set_free`] says otherwise.
     pub fn set_viewport(&mut self, width: f32, height: f32) {
         self.viewport = Vec2::new(width.max(1.0), height.max(1.0));
+        self.free = None;
     }
 
     /// Size of the canvas in CSS pixels.
     #[must_use]
     pub fn viewport(&self) -> Vec2 {
         self.viewport
+    }
+
+    /// Says which part of the canvas panels leave free, by its upper left and lower right corner in CSS
+    /// pixels: the centre of the pose is shown in its middle, and what is fitted fits into it. `None`, or a
+    /// part less than a third as wide or high as the canvas: the whole canvas.
+    pub fn set_free(&mut self, free: Option<(Vec2, Vec2)>) {
+        let is_enough = |(lower, upper): &(Vec2, Vec2)| (*upper - *lower).cmpge(self.viewport / 3.0).all();
+        self.free = free.filter(is_enough);
+    }
+
+    /// The place of the canvas where the centre of the pose is shown, in CSS pixels.
+    #[must_use]
+    pub fn middle(&self) -> Vec2 {
+        self.free.map_or(self.viewport * 0.5, |(lower, upper)| 0.5 * (lower + upper))
     }
 
     /// Where the eye is and where it looks.
@@ -226,7 +244,7 @@ impl Camera {
         self.orthographic = !self.orthographic;
     }
 
-    /// Shows a ball as large as the canvas allows, from where the eye is now.
+    /// Shows a ball as large as the free part of the canvas allows, from where the eye is now.
     pub fn fit(&mut self, centre: Vec3, radius: f32) {
         self.set_extent(centre, radius);
         self.set_pose(self.pose_that_fits(centre, radius));
@@ -236,8 +254,8 @@ impl Camera {
     #[must_use]
     pub fn pose_that_fits(&self, centre: Vec3, radius: f32) -> Pose {
         let radius = if radius > 0.0 { radius } else { 1.0 };
-        let narrow = (self.viewport.x / self.viewport.y).min(1.0);
-        let half_angle = (tangent() * narrow).atan();
+        let free = self.free.map_or(self.viewport, |(lower, upper)| upper - lower);
+        let half_angle = (tangent() * free.min_element() / self.viewport.y).atan();
         let distance = (1.05 * radius / half_angle.sin()).clamp(DISTANCES.0, DISTANCES.1);
         Pose { centre, distance, ..self.pose }
     }
@@ -374,7 +392,9 @@ impl Camera {
         } else {
             directx::perspective_infinite_reverse(FIELD_OF_VIEW, aspect, self.near())
         };
-        clip_from_view * self.view_from_world()
+        // A lens that is shifted, not an eye that is turned: an orbit goes round what is in the middle.
+        let shift = 2.0 * (self.middle() - self.viewport * 0.5) / self.viewport;
+        Mat4::from_translation(Vec3::new(shift.x, -shift.y, 0.0)) * clip_from_view * self.view_from_world()
     }
 
     /// Distance of the near plane in perspective.
@@ -425,7 +445,7 @@ impl Camera {
             return None;
         }
         let unit = self.unit_per_pixel(world);
-        Some(self.viewport * 0.5 + Vec2::new(offset.x, -offset.y) / unit)
+        Some(self.middle() + Vec2::new(offset.x, -offset.y) / unit)
     }
 
     /// The half-line of all places under the pointer.
@@ -445,7 +465,7 @@ impl Camera {
     /// What the pointer adds to the direction of view, at depth 1.
     fn aside(&self, cursor: Vec2) -> Vec3 {
         let basis = self.pose.basis();
-        let offset = (cursor - self.viewport * 0.5) * (2.0 * tangent() / self.viewport.y);
+        let offset = (cursor - self.middle()) * (2.0 * tangent() / self.viewport.y);
         basis.x_axis * offset.x - basis.y_axis * offset.y
     }
 

@@ -2,13 +2,15 @@ use super::*;
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
-/// Cameras of both projections in several poses.
+/// Cameras of both projections in several poses, with panels at the edges and without.
 fn cameras() -> Vec<Camera> {
     let mut all = Vec::new();
-    for orthographic in [false, true] {
+    let panels = Some((Vec2::new(90.0, 50.0), Vec2::new(700.0, 560.0)));
+    for (orthographic, free) in [(false, None), (true, None), (false, panels), (true, panels)] {
         for (azimuth, elevation) in [(0.0, 0.0), (0.7, 0.4), (-2.5, -1.2), (3.0, FRAC_PI_2)] {
             let mut camera = Camera::default();
             camera.set_viewport(1000.0, 600.0);
+            camera.set_free(free);
             camera.set_pose(Pose { centre: Vec3::new(0.3, -0.2, 0.5), azimuth, elevation, distance: 5.0 });
             if orthographic {
                 camera.toggle_projection();
@@ -201,6 +203,27 @@ fn fit_shows_the_whole_ball() {
     let mut camera = Camera::default();
     camera.fit(Vec3::ZERO, 0.0);
     assert!(camera.pose().distance > 1.0);
+}
+
+#[test]
+fn fit_shows_the_whole_ball_beside_the_panels() {
+    let (lower, upper) = (Vec2::new(90.0, 60.0), Vec2::new(660.0, 500.0));
+    for mut camera in cameras() {
+        camera.set_viewport(900.0, 560.0);
+        camera.set_free(Some((lower, upper)));
+        let (centre, radius) = (Vec3::new(4.0, 5.0, 6.0), 2.0);
+        camera.fit(centre, radius);
+        assert!(camera.project(centre).unwrap().distance(0.5 * (lower + upper)) < 1e-2);
+        for side in [camera.right(), -camera.right(), camera.up(), -camera.up()] {
+            let pixel = camera.project(centre + side * radius).unwrap();
+            assert!(pixel.cmpge(lower).all() && pixel.cmple(upper).all(), "{pixel}");
+        }
+        camera.look_from(View::Top);
+        assert!(camera.project(centre).unwrap().distance(0.5 * (lower + upper)) < 1e-2);
+        // What is left of the canvas is too little to show anything in.
+        camera.set_free(Some((lower, lower + 50.0)));
+        assert!(camera.project(centre).unwrap().distance(Vec2::new(450.0, 280.0)) < 1e-2);
+    }
 }
 
 #[test]

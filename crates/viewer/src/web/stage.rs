@@ -9,7 +9,7 @@ use crate::limit::Limit;
 use crate::tool::{Arm, Selection, ToolKind, ghost_line, work_plane};
 use crate::{GpuError, Highlight, Look, Renderer, Tinted, drape};
 use ductile_spec::GrabTarget;
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use wasm_bindgen::closure::Closure;
 use wasm_bindgen::{JsCast, JsValue};
 use web_sys::{Event, HtmlCanvasElement};
@@ -18,6 +18,8 @@ use web_sys::{Event, HtmlCanvasElement};
 const MOST_PIXELS: f64 = 16.0e6;
 /// Up to this width in CSS pixels the tools lie at the bottom edge (style.css says the same).
 const NARROW: f32 = 640.0;
+/// Height at the lower edge that the status line and a hint of two lines take, in CSS pixels.
+const STATUS: f32 = 60.0;
 /// Pause before a device is asked for again, and before a canvas that was not ready is tried again.
 const PAUSE: i32 = 250;
 
@@ -208,6 +210,7 @@ impl Page {
         self.settings.look.device_pixel_ratio = glam::DVec2::splat(ratio).as_vec2().x;
         let size = size.as_vec2();
         self.camera.set_viewport(size.x, size.y);
+        self.camera.set_free(free_part(size));
         if let Some(renderer) = &mut self.stage.renderer {
             renderer.resize(pixels[0], pixels[1]);
         }
@@ -326,6 +329,20 @@ impl Page {
             mark.ghost_line = drape(&self.scene, &self.camera, surface, &mark.ghost_line, reach);
         }
     }
+}
+
+/// The part of the canvas between the panels at its edges, from its upper left to its lower right corner. On a
+/// narrow screen they come and go, and the model has all of it.
+fn free_part(size: Vec2) -> Option<(Vec2, Vec2)> {
+    let place = |id: &str| dom::element(id).get_bounding_client_rect();
+    let is_shown = |id: &str| place(id).width() > 0.0;
+    if size.x <= NARROW || !is_shown("tools") || !is_shown("bar") {
+        return None;
+    }
+    let right = if is_shown("side") { place("side").left() } else { f64::from(size.x) };
+    let lower = glam::DVec2::new(place("tools").right(), place("bar").bottom());
+    // Not the hint's own height: it changes with every tool, and the model should not move with it.
+    Some((lower.as_vec2(), Vec2::new(glam::DVec2::splat(right).as_vec2().x, size.y - STATUS)))
 }
 
 /// A length in whole pixels.

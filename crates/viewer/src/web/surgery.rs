@@ -65,7 +65,7 @@ impl Page {
             }
             Selection::Surface(_) | Selection::Edge { .. } | Selection::Face { .. } | Selection::None => None,
         };
-        let middle = self.camera.viewport() * 0.5;
+        let middle = self.camera.middle();
         let place = self.place_on_plane(middle, Modifiers::default());
         let hit = hit.filter(|_| self.tools.kind() != ToolKind::Point);
         let surface = match hit {
