@@ -188,9 +188,11 @@ async function sleeps(page) {
 
 /** A place of the boundary at the left, far from all controls and from where toasts appear, between its samples. */
 function onBareCurve(state) {
-  const free = state.curves[0].screen.filter((place) => state.points.every(({ screen }) => distance(screen, place) > 30));
+  const samples = state.curves[0].screen;
+  const free = samples.filter((place) => state.points.every(({ screen }) => distance(screen, place) > 30));
   assert.ok(free.length > 0);
-  const [x, y] = free.reduce((first, place) => (place[0] < first[0] ? place : first));
-  // The boundary runs up and down there: a third of an edge along it is on no sample, and still on the curve's few pixels.
-  return [x, y + 4];
+  const first = free.reduce((first, place) => (place[0] < first[0] ? place : first));
+  // A third of the way to the next sample lies on none.
+  const next = samples[(samples.indexOf(first) + 1) % samples.length];
+  return [0, 1].map((axis) => first[axis] + (next[axis] - first[axis]) / 3);
 }

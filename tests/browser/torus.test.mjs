@@ -7,10 +7,8 @@ import { assertOnCanvas, atRest, choose, distance, drawn, newPoints, point, wide
 import { inspect, untilInspect, withPage } from "./support/page.mjs";
 import { drag } from "./support/pointer.mjs";
 
-const middle = [wide.width / 2, wide.height / 2];
-
-/** Four places round the middle of the window. */
-const ring = (radius) => [[radius, 0], [0, -radius], [-radius, 0], [0, radius]].map(([x, y]) => [middle[0] + x, middle[1] + y]);
+/** Four places round a place of the window. */
+const ring = (middle, radius) => [[radius, 0], [0, -radius], [-radius, 0], [0, radius]].map(([x, y]) => [middle[0] + x, middle[1] + y]);
 
 /** Clicks places and the first again: a closed curve. */
 async function loop(page, key, places, act) {
@@ -34,9 +32,9 @@ function screenOf({ camera, points }, at) {
   };
   // The length of the lens, from the point that is farthest off the axis.
   const far = points.map((entry) => [entry, seen(entry.at)]).reduce((a, b) => (Math.abs(b[1][0]) > Math.abs(a[1][0]) ? b : a));
-  const lens = (far[0].screen[0] - middle[0]) / far[1][0];
+  const lens = (far[0].screen[0] - camera.middle[0]) / far[1][0];
   const [x, y] = seen(at);
-  return [middle[0] + lens * x, middle[1] - lens * y];
+  return [camera.middle[0] + lens * x, camera.middle[1] - lens * y];
 }
 
 /** Drags a control point straight up by a length. */
@@ -95,16 +93,16 @@ test("figure 3.1: a disc becomes a torus, is taken back to nothing, and comes ag
     await choose(page, "file", "new");
     const empty = await atRest(page, ({ points }) => points.length === 0);
     await page.keyboard.press("7");
-    await atRest(page, ({ camera }) => camera.forward[2] < -0.99);
+    const { middle } = (await atRest(page, ({ camera }) => camera.forward[2] < -0.99)).camera;
 
     // (a, b) A curve and a sheet over it; (c) two curves drawn on the sheet.
-    await loop(page, "c", ring(190), "Curve");
+    await loop(page, "c", ring(middle, 190), "Curve");
     await page.keyboard.press("s");
     await page.mouse.click(...(await onCurve(page, 1)));
     const sheet = await atRest(page, ({ surfaces }) => surfaces.length === 1);
-    const wall = newPoints(await loop(page, "d", ring(104), "Draw"), sheet);
+    const wall = newPoints(await loop(page, "d", ring(middle, 104), "Draw"), sheet);
     const walled = await inspect(page);
-    const hole = newPoints(await loop(page, "d", ring(66), "Draw"), walled);
+    const hole = newPoints(await loop(page, "d", ring(middle, 66), "Draw"), walled);
     assert.deepEqual([wall.length, hole.length], [4, 4]);
 
     // (d) What is inside the inner one is burnt out.

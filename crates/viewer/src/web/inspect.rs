@@ -140,6 +140,7 @@ impl Page {
         put(&out, "right", triple(self.camera.right()));
         put(&out, "up", triple(self.camera.up()));
         put(&out, "forward", triple(self.camera.forward()));
+        put(&out, "middle", self.on_screen(pose.centre));
         put(&out, "orthographic", self.camera.is_orthographic());
         put(&out, "flying", self.camera.is_flying());
         out
