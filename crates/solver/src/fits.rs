@@ -5,7 +5,12 @@
 //! which the matrix is assembled. Two ordinary nodes go through together; a pair in which either is out of the
 //! ordinary goes through one by one, with care.
 
+mod active;
 mod clamped;
+
+pub(crate) use active::Active;
+
+use std::sync::Arc;
 
 use glam::DVec3;
 
@@ -15,7 +20,7 @@ use crate::clamp::Clamp;
 use crate::constraint::Planes;
 use crate::energy::fair::Variation;
 use crate::energy::thin_plate::{self, Demand};
-use crate::error::check_positions;
+use crate::error::{check_finite, check_positions};
 use crate::fit::{self, CarefulFit, Curvature, Kind};
 use crate::gradient::Backward;
 use crate::lanes::{Pair, Real};
@@ -43,8 +48,6 @@ pub(crate) enum Wanted {
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Node {
     pub(crate) normal: DVec3,
-    /// Thin plate, as far as it counts, plus barrier.
-    pub(crate) energy: f64,
     /// One third of the parametric fan.
     pub(crate) area: f64,
     /// Mean chord.
@@ -70,6 +73,8 @@ pub(crate) type Row = [[f64; 2]; 3];
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Fits {
     pub(crate) nodes: Vec<Node>,
+    /// Thin plate, as far as it counts, plus barrier, of every node; apart, because all are added up again and again.
+    pub(crate) energies: Vec<f64>,
     /// Chord length per spoke.
     pub(crate) lengths: Vec<f64>,
     /// Where the fits were made.
@@ -84,8 +89,8 @@ pub(crate) struct Fits {
     pub(crate) variation: Option<Variation>,
     /// The fits of nodes whose tangent plane is prescribed, in the order of the planes.
     pub(crate) clamps: Vec<Clamp>,
-    /// The batches that are fitted, by place, if some are left as they are; their nodes cannot have moved.
-    pub(crate) active: Option<Vec<usize>>,
+    /// What is fitted, if some nodes are left as they are; those cannot have moved.
+    pub(crate) active: Option<Arc<Active>>,
     /// What there is.
     has: Wanted,
 }
@@ -120,6 +125,7 @@ impl Fits {
         let rows = rings.batches().last().map_or(0, |batch| batch.rows().end);
         Self {
             nodes: vec![Node::default(); rings.len()],
+            energies: vec![0.0; rings.len()],
             lengths: vec![0.0; rings.spokes()],
             positions: vec![DVec3::NAN; rings.len()],
             energy: f64::NAN,
@@ -142,12 +148,9 @@ impl Fits {
         if self.are_at(positions) && wanted <= self.has {
             return;
         }
-        self.positions.copy_from_slice(positions);
         self.has = wanted;
         let makes_gradient = wanted == Wanted::Gradient;
-        if makes_gradient {
-            self.gradient.fill(DVec3::ZERO);
-        }
+        self.begin(positions, makes_gradient);
         let mut others = 0.0;
         // What edges ask of the nodes at their ends is known when all nodes are fitted: that takes two sweeps.
         if self.variation.is_some() {
@@ -176,18 +179,62 @@ impl Fits {
                 film.add_gradient(&self.positions, price, &mut self.gradient);
             }
         }
-        self.energy = self.nodes.iter().map(|node| node.energy).sum::<f64>() + others;
+        self.energy = self.energies.iter().sum::<f64>() + others;
         // A ring without sense counts for nothing; that must not pass for a shape without energy.
-        if check_positions(rings.len(), positions).is_err() {
+        let is_sane = match &self.active {
+            Some(active) => {
+                active.nodes.iter().all(|&node| check_finite(node, positions[node as usize]).is_ok())
+            }
+            None => check_positions(rings.len(), positions).is_ok(),
+        };
+        if !is_sane {
             self.energy = f64::NAN;
+        }
+    }
+
+    /// Takes over the positions, and clears the gradient if it is wanted.
+    fn begin(&mut self, positions: &[DVec3], makes_gradient: bool) {
+        match self.active.clone() {
+            Some(active) => {
+                for &node in &active.nodes {
+                    self.positions[node as usize] = positions[node as usize];
+                }
+                for &node in active.felt.iter().filter(|_| makes_gradient) {
+                    self.gradient[node as usize] = DVec3::ZERO;
+                }
+            }
+            None => {
+                self.positions.copy_from_slice(positions);
+                if makes_gradient {
+                    self.gradient.fill(DVec3::ZERO);
+                }
+            }
+        }
+    }
+
+    /// Takes these positions over into an array that knows those of the nodes that are not fitted.
+    pub(crate) fn copy_positions(&self, into: &mut [DVec3]) {
+        match &self.active {
+            Some(_) => self.each(|node| into[node] = self.positions[node]),
+            None => into.copy_from_slice(&self.positions),
+        }
+    }
+
+    /// Calls `work` for every node that is fitted, in index order.
+    #[inline]
+    pub(crate) fn each(&self, mut work: impl FnMut(usize)) {
+        match &self.active {
+            Some(active) => active.nodes.iter().for_each(|&node| work(node as usize)),
+            None => (0..self.nodes.len()).for_each(work),
         }
     }
 
     /// The batches in which anything can move.
     pub(crate) fn active_batches<'a>(&'a self, rings: &'a Rings) -> impl Iterator<Item = &'a Batch> {
         let batches = rings.batches();
-        let count = self.active.as_ref().map_or(batches.len(), Vec::len);
-        (0..count).map(move |place| &batches[self.active.as_ref().map_or(place, |active| active[place])])
+        let active = self.active.as_ref().map(|active| &active.batches);
+        let count = active.map_or(batches.len(), Vec::len);
+        (0..count).map(move |place| &batches[active.map_or(place, |active| active[place])])
     }
 
     /// Forgets the positions, so that the next call fits whatever they are.
@@ -196,11 +243,12 @@ impl Fits {
     }
 
     fn sweep(&mut self, rings: &Rings, sweep: &mut Sweep<'_>) {
-        let active = self.active.take();
+        let active = self.active.clone();
+        let active = active.as_ref().map(|active| &active.batches);
         let batches = rings.batches();
-        let count = active.as_ref().map_or(batches.len(), Vec::len);
+        let count = active.map_or(batches.len(), Vec::len);
         for place in 0..count {
-            let batch = &batches[active.as_ref().map_or(place, |active| active[place])];
+            let batch = &batches[active.map_or(place, |active| active[place])];
             let is_done = match (batch.is_regular(), batch.is_boundary) {
                 (false, _) => false,
                 _ if sweep.goals.planes.is_some() && clamped::has_plane(sweep.goals, batch) => false,
@@ -213,7 +261,6 @@ impl Fits {
                 }
             }
         }
-        self.active = active;
     }
 
     /// Both nodes of a batch at once; false, and nothing written, when either is out of the ordinary.
@@ -236,12 +283,12 @@ impl Fits {
             let node = batch.nodes[lane] as usize;
             self.nodes[node] = Node {
                 normal: fit.normal.lane(lane),
-                energy: energy.lane(lane),
                 area: fit.area.lane(lane),
                 h: ring.h.lane(lane),
                 jacobian: fit.jacobian.lane(lane),
                 l: fit.l.map(|l| l.lane(lane)),
             };
+            self.energies[node] = energy.lane(lane);
             self.keep(rings, node, lane, ring, true);
         }
         if sweep.wanted >= Wanted::Rows {
@@ -278,12 +325,12 @@ impl Fits {
         let price = sweep.goals.price(node);
         self.nodes[node] = Node {
             normal: fit.normal.lane(0),
-            energy: energy_of(&careful, price.rows()),
             area: fit.area,
             h: if ring.degree < 2 { 0.0 } else { ring.h },
             jacobian: fit.jacobian,
             l: fit.l,
         };
+        self.energies[node] = energy_of(&careful, price.rows());
         if let Some(place) = sweep.goals.plane(node).filter(|_| careful.kind != Kind::Flat) {
             self.fit_clamped(rings, batch, lane, &careful, place, sweep);
             return;
@@ -404,8 +451,10 @@ mod tests {
                 alone.fit_single(&rings, batch, lane, &mut sweep);
             }
         }
+        for (a, b) in together.energies.iter().zip(&alone.energies) {
+            assert!((a - b).abs() <= 1e-12 * b.max(1.0));
+        }
         for (a, b) in together.nodes.iter().zip(&alone.nodes) {
-            assert!((a.energy - b.energy).abs() <= 1e-12 * b.energy.max(1.0));
             assert!(a.normal.distance(b.normal) < 1e-13);
         }
         let scale = alone.gradient.iter().map(|g| g.length()).fold(0.0, f64::max);

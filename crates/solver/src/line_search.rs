@@ -34,14 +34,15 @@ pub(crate) fn first_scale(rings: &Rings, fits: &Fits, unknowns: &Unknowns, alpha
         index => alpha[index as usize],
     };
     let mut worst = 0.5_f64;
-    for (node, fit) in fits.nodes.iter().enumerate() {
-        worst = worst.max(offset(node).abs() * fit.curvature().largest());
-    }
-    rings.edges().for_each(|(slot, from, to)| {
-        let shear = (offset(from) - rings.sense(slot) * offset(to)).abs();
-        let length = fits.lengths[slot];
-        // An edge of no length would stop everything; measure it by its ring instead.
-        worst = worst.max(shear / length.max(0.1 * fits.nodes[from].h).max(f64::MIN_POSITIVE));
+    // What is not fitted does not move, nor do its edges to what is not fitted either.
+    fits.each(|node| worst = worst.max(offset(node).abs() * fits.nodes[node].curvature().largest()));
+    fits.each(|from| {
+        for (slot, to) in rings.edges_from(from) {
+            let shear = (offset(from) - rings.sense(slot) * offset(to)).abs();
+            let length = fits.lengths[slot];
+            // An edge of no length would stop everything; measure it by its ring instead.
+            worst = worst.max(shear / length.max(0.1 * fits.nodes[from].h).max(f64::MIN_POSITIVE));
+        }
     });
     0.5 / worst
 }
@@ -92,7 +93,7 @@ impl Search<'_> {
     ) -> Found {
         let mut scale = first_scale(self.rings, self.fits, self.unknowns, self.alpha);
         for halvings in 0..=MAX_HALVINGS {
-            positions.copy_from_slice(&self.fits.positions);
+            self.fits.copy_positions(positions);
             for (&node, &alpha) in self.unknowns.nodes.iter().zip(self.alpha) {
                 positions[node as usize] += self.fits.nodes[node as usize].normal * (scale * alpha);
             }

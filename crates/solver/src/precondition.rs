@@ -41,17 +41,26 @@ impl Preconditioner {
         })
     }
 
-    /// Brings the factor up to date if it is stale. `shift` per unknown keeps parts without fixed nodes regular.
+    /// Brings the factor up to date if it is stale. `shift` per unknown keeps parts without fixed nodes regular. Edges that
+    /// are not fitted are as they were when the unknowns were chosen.
     pub(crate) fn prepare(
         &mut self,
+        rings: &Rings,
         fits: &Fits,
         unknowns: &Unknowns,
         shift: impl Fn(usize, f64) -> f64,
     ) -> Result<(), FactorError> {
         let limit = if self.served_badly { WORTH_STRETCH } else { STALE_STRETCH };
+        let is_near = |new: f64, old: f64| (new - old).abs() <= limit * old;
         let is_fresh = self.lengths.len() == fits.lengths.len()
             && !self.lengths.is_empty()
-            && fits.lengths.iter().zip(&self.lengths).all(|(new, &old)| (new - old).abs() <= limit * old);
+            && match &fits.active {
+                Some(active) => {
+                    let mut slots = active.nodes.iter().flat_map(|&node| rings.slots(node as usize));
+                    slots.all(|slot| is_near(fits.lengths[slot], self.lengths[slot]))
+                }
+                None => fits.lengths.iter().zip(&self.lengths).all(|(&new, &old)| is_near(new, old)),
+            };
         if is_fresh {
             return Ok(());
         }
@@ -127,12 +136,12 @@ mod tests {
         let mut preconditioner = Preconditioner::new(&rings, &unknowns, Acting::OnOffsets).unwrap();
         let mut fits = Fits::new(&rings, &goals);
         fits.refit(&rings, &goals, &disc.positions, Wanted::Energy);
-        preconditioner.prepare(&fits, &unknowns, |_, _| 0.0).unwrap();
+        preconditioner.prepare(&rings, &fits, &unknowns, |_, _| 0.0).unwrap();
         preconditioner.served(iterations);
         let before = preconditioner.lengths.clone();
         let stretched: Vec<_> = disc.positions.iter().map(|&p| p * stretch).collect();
         fits.refit(&rings, &goals, &stretched, Wanted::Energy);
-        preconditioner.prepare(&fits, &unknowns, |_, _| 0.0).unwrap();
+        preconditioner.prepare(&rings, &fits, &unknowns, |_, _| 0.0).unwrap();
         preconditioner.lengths != before
     }
 

@@ -59,12 +59,21 @@ impl Predictor {
         self.moved.clear();
     }
 
-    /// The displacement of every node when the fixed nodes move by `moves` and all other fixed nodes stay.
+    /// What is known of a field: a value at every moved node, and zero.
+    fn know(&mut self, nodes: usize, moves: &[(u32, DVec3)], value: impl Fn(DVec3) -> f64) {
+        self.known.clear();
+        self.known.resize(nodes, 0.0);
+        for &(node, displacement) in moves {
+            self.known[node as usize] = value(displacement);
+        }
+    }
+
+    /// The displacement of every node when the fixed nodes move by `moves` and all other fixed nodes stay. Of those that are
+    /// not fitted and not in `moves` it says nothing: they stay.
     ///
     /// `moves` holds each node once. The field of the last call serves as first guess when the same nodes move.
     pub(crate) fn displacements(&mut self, parts: Parts<'_>, moves: &[(u32, DVec3)]) -> (&[DVec3], Outcome) {
         let Parts { rings, fits, unknowns, assembly, preconditioner, limit } = parts;
-        self.field.clear();
         self.field.resize(rings.len(), DVec3::ZERO);
         let mut outcome = Outcome::default();
         let first = moves.first().map_or(DVec3::ZERO, |&(_, displacement)| displacement);
@@ -80,12 +89,13 @@ impl Predictor {
         }
         let coordinates = if is_translation { 1 } else { 3 };
         for coordinate in 0..coordinates {
-            self.known.clear();
-            self.known.resize(rings.len(), 0.0);
-            for &(node, displacement) in moves {
-                let value = if is_translation { 1.0 } else { displacement[coordinate] };
-                self.known[node as usize] = value;
-            }
+            self.know(
+                rings.len(),
+                moves,
+                |displacement| {
+                    if is_translation { 1.0 } else { displacement[coordinate] }
+                },
+            );
             self.rhs.resize(unknowns.len(), 0.0);
             assembly.pull_fixed(rings, fits, unknowns, &self.known, &mut self.rhs);
             if !is_translation {
@@ -106,17 +116,17 @@ impl Predictor {
             self.reference = if solved.iterations == 0 { solved.reference } else { f64::NAN };
             outcome.iterations += solved.iterations;
             outcome.residual = outcome.residual.max(solved.residual);
-            for (node, field) in self.field.iter_mut().enumerate() {
-                let value = match unknowns.index[node] {
-                    FIXED => self.known[node],
-                    index => self.guess[index as usize],
-                };
-                if is_translation {
-                    *field = first * value;
-                } else {
-                    field[coordinate] = value;
-                }
+            let field = &mut self.field;
+            let (known, guess) = (&self.known, &self.guess);
+            if is_translation {
+                tell(fits, unknowns, known, guess, |node, value| field[node] = first * value);
+            } else {
+                tell(fits, unknowns, known, guess, |node, value| field[node][coordinate] = value);
             }
+        }
+        // A moved control may lie beside what sleeps only.
+        for &(node, displacement) in moves {
+            self.field[node as usize] = displacement;
         }
         self.moved.clear();
         if is_translation {
@@ -126,18 +136,28 @@ impl Predictor {
     }
 }
 
+/// Tells the value of a field at every node that is fitted.
+fn tell(fits: &Fits, unknowns: &Unknowns, known: &[f64], solved: &[f64], mut take: impl FnMut(usize, f64)) {
+    fits.each(|node| match unknowns.index[node] {
+        FIXED => take(node, known[node]),
+        index => take(node, solved[index as usize]),
+    });
+}
+
 /// Largest relative strain that the displacements put on an edge with a free end.
 ///
 /// Edges between two fixed nodes are the user's business; an edge much shorter than its ring is measured by its
 /// ring, so that one short edge cannot hold up a handle for ever.
 pub(crate) fn strain(rings: &Rings, fits: &Fits, unknowns: &Unknowns, field: &[DVec3]) -> f64 {
     let mut worst = 0.0_f64;
-    rings.edges().for_each(|(slot, from, to)| {
-        if unknowns.index[from] == FIXED && unknowns.index[to] == FIXED {
-            return;
+    fits.each(|from| {
+        for (slot, to) in rings.edges_from(from) {
+            if unknowns.index[from] == FIXED && unknowns.index[to] == FIXED {
+                continue;
+            }
+            let length = fits.lengths[slot].max(0.1 * fits.nodes[from].h).max(f64::MIN_POSITIVE);
+            worst = worst.max((field[from] - field[to]).length() / length);
         }
-        let length = fits.lengths[slot].max(0.1 * fits.nodes[from].h).max(f64::MIN_POSITIVE);
-        worst = worst.max((field[from] - field[to]).length() / length);
     });
     worst
 }

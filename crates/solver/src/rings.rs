@@ -175,11 +175,15 @@ impl Rings {
 
     /// Every edge once, as `(slot, from, to)` with `from < to`, in a fixed order.
     pub(crate) fn edges(&self) -> impl Iterator<Item = (usize, usize, usize)> {
-        (0..self.len()).flat_map(move |node| {
-            self.slots(node).filter_map(move |slot| {
-                let far = self.neighbours[slot] as usize;
-                (node < far).then_some((slot, node, far))
-            })
+        (0..self.len()).flat_map(move |node| self.edges_from(node).map(move |(slot, far)| (slot, node, far)))
+    }
+
+    /// The edges of a node to larger ones, as `(slot, to)`.
+    #[inline]
+    pub(crate) fn edges_from(&self, node: usize) -> impl Iterator<Item = (usize, usize)> {
+        self.slots(node).filter_map(move |slot| {
+            let far = self.neighbours[slot] as usize;
+            (node < far).then_some((slot, far))
         })
     }
 

@@ -24,6 +24,8 @@ mod sleep;
 pub use figures::NodeFigures;
 pub use frozen::Frozen;
 
+use std::cell::OnceCell;
+
 use glam::DVec3;
 
 use crate::assembly::{Assembly, Rows};
@@ -43,7 +45,7 @@ use crate::rings::Rings;
 use crate::smooth::{self, Aim, EdgePlaces, SmoothReport};
 
 use matrix::{Matrix, Scratch};
-use sleep::Sleep;
+use sleep::{Bays, Sleep};
 
 /// Fair surfaces over one frozen connectivity.
 #[derive(Clone, Debug)]
@@ -70,6 +72,8 @@ pub struct SurfaceSolver {
     alpha: Vec<f64>,
     workspace: Workspace,
     scratch: Scratch,
+    /// The parts between fixed nodes, once somebody asked for them.
+    bays: Option<Bays>,
     /// What is put aside while bays sleep.
     sleep: Option<Sleep>,
     /// Factor on the mass damping, above 1 after failed searches.
@@ -100,6 +104,7 @@ impl SurfaceSolver {
             alpha: Vec::new(),
             workspace: Workspace::default(),
             scratch: Scratch::default(),
+            bays: None,
             sleep: None,
             objectives: Objectives::default(),
             goals,
@@ -136,6 +141,7 @@ impl SurfaceSolver {
             self.predictor.reset();
             self.unknowns = unknowns;
             self.fixed = fixed;
+            self.bays = None;
             self.damping = 1.0;
             self.quiet_steps = 0;
             self.release_planes();
@@ -202,8 +208,11 @@ impl SurfaceSolver {
         let strain = predictor::strain(&self.rings, &self.fits, &self.unknowns, field);
         let fraction =
             if strain > self.settings.strain_limit { self.settings.strain_limit / strain } else { 1.0 };
-        for (position, &displacement) in positions.iter_mut().zip(field) {
-            *position += displacement * fraction;
+        self.fits.each(|node| positions[node] += field[node] * fraction);
+        if let Some(active) = &self.fits.active {
+            for &(node, displacement) in moves.iter().filter(|(node, _)| !active.has(*node)) {
+                positions[node as usize] += displacement * fraction;
+            }
         }
         self.served(outcome.iterations);
         self.quiet_steps = 0;
@@ -393,9 +402,13 @@ impl SurfaceSolver {
         self.heed_positions(positions);
         self.begin_planes(positions);
         self.fits.refit(&self.rings, &self.goals, positions, wanted);
-        for (normal, fit) in self.normals.iter_mut().zip(&self.fits.nodes) {
-            *normal = fit.normal;
-        }
+        self.take_normals();
+    }
+
+    /// Keeps the normals of the newest fit.
+    fn take_normals(&mut self) {
+        let (normals, nodes) = (&mut self.normals, &self.fits.nodes);
+        self.fits.each(|node| normals[node] = nodes[node].normal);
     }
 
     /// Right-hand side `-g/2`.
@@ -413,19 +426,22 @@ impl SurfaceSolver {
     /// Brings the preconditioners up to date, both at once, so that their ages never depend on the senses.
     fn prepare(&mut self) -> Result<(), SolverError> {
         let (fits, unknowns, components) = (&self.fits, &self.unknowns, &self.components);
-        let (looseness, settings) = (components.looseness(&fits.positions, &self.fixed), &self.settings);
+        let (settings, fixed) = (&self.settings, &self.fixed);
+        // Asked for only if a factor is stale.
+        let looseness = OnceCell::new();
+        let looseness = || looseness.get_or_init(|| components.looseness(&fits.positions, fixed));
         let shift = |unknown: usize, diagonal: f64| {
             let node = unknowns.nodes[unknown] as usize;
-            if looseness.of(components, node).has_fixed {
+            if looseness().of(components, node).has_fixed {
                 return 0.0;
             }
             // (Lc + sqrt(mu) Ma/R²) Ma⁻¹ (Lc + ...) then stands for the damped plate on constants too.
-            let mass = mass(fits, components, &looseness, settings, node);
+            let mass = mass(fits, components, looseness(), settings, node);
             let shift = (mass * fits.nodes[node].area).sqrt();
             shift.max(1e-9 * diagonal)
         };
         for preconditioner in self.field_preconditioner.iter_mut().chain([&mut self.preconditioner]) {
-            preconditioner.prepare(fits, unknowns, shift)?;
+            preconditioner.prepare(&self.rings, fits, unknowns, shift)?;
         }
         Ok(())
     }

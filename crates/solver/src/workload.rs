@@ -198,6 +198,18 @@ pub fn cylinder(around: u32, along: u32, length: f64) -> Workload {
     Workload { positions, triangles, fixed }
 }
 
+/// A tube of radius 1 with fixed circles of so many nodes each: `bays + 1` of them, `along` rows apart.
+pub fn tube_of_bays(around: u32, bays: u32, along: u32) -> Workload {
+    let rows = bays * along;
+    // Triangles of even sides.
+    let height = std::f64::consts::TAU / f64::from(around) * 0.75_f64.sqrt();
+    let mut tube = cylinder(around, rows, height * f64::from(rows));
+    for (row, nodes) in (0..=rows).zip(tube.fixed.chunks_exact_mut(around as usize)) {
+        nodes.fill(row.is_multiple_of(along));
+    }
+    tube
+}
+
 /// A Möbius strip of the given half width around the unit circle; the nodes of its one boundary are fixed.
 pub fn moebius(around: u32, across: u32, half_width: f64) -> Workload {
     let mut positions = Vec::new();

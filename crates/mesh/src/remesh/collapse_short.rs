@@ -6,7 +6,7 @@ use std::collections::BinaryHeap;
 use glam::DVec3;
 
 use super::potential::{LEAST_FALL, fall_of_cotangents};
-use super::split_long::LONG;
+use super::split_long::{LONG, TOO_LONG};
 use super::{Edits, Limits, Seeds, Sizing};
 use crate::surgery::Track;
 use crate::{EdgeId, Mesh, VertexId};
@@ -17,6 +17,9 @@ use crate::{EdgeId, Mesh, VertexId};
 /// stay, and with them corners of 20°. A triangle with sides of 0.66 and twice 1.33 still has a corner of 29°.
 pub(super) const SHORT: f64 = 0.66;
 
+/// A collapse may make edges longer by this than the longest there is at a vertex that is to be split across anyway.
+const STRETCH: f64 = 1.1;
+
 /// cos 84°: a collapse may turn no triangle further than this.
 const COS_OF_LARGEST_TURN: f64 = 0.104_528_463_267_653_47;
 
@@ -25,7 +28,7 @@ const COS_OF_LARGEST_TURN: f64 = 0.104_528_463_267_653_47;
 ///
 /// A vertex on a boundary loop or a curve goes along its line, where that is allowed at all. A collapse is refused if
 /// [`Mesh::can_collapse`] says so, if it turns a triangle by more than 84°, lets a ring grow past the limit, or makes an
-/// edge so long that the next batch would split it.
+/// edge so long that the next batch would split it (see [`Limits::may_lengthen`]).
 pub fn collapse_short(
     mesh: &mut Mesh,
     positions: &[DVec3],
@@ -113,7 +116,7 @@ fn is_welcome(
 ) -> bool {
     // The new ring is the union of both, less the two ends and one or two that both have.
     ring.len() + mesh.valence(w) <= limits.most_neighbours + 3
-        && lasts(mesh, positions, sizing, ring, w)
+        && lasts(mesh, positions, sizing, ring, (v, w), limits)
         && mesh.can_collapse(v, w).is_ok()
         && keeps_normals(mesh, positions, v, w)
 }
@@ -140,12 +143,22 @@ pub(super) fn collapse_into_nearest(
 
 /// Whether collapsing a vertex with this ring into `w` will not be undone by the next batch: it makes no
 /// edge so long that it is split, and leaves no diagonal so bad that it is flipped to such an edge.
-///
-fn lasts(mesh: &Mesh, positions: &[DVec3], sizing: &Sizing, ring: &[VertexId], w: VertexId) -> bool {
-    let is_short = ring
-        .iter()
-        .filter(|&&x| x != w && !mesh.are_neighbours(x, w))
-        .all(|&x| sizing.ratio_between(positions, x, w) <= LONG);
+fn lasts(
+    mesh: &Mesh,
+    positions: &[DVec3],
+    sizing: &Sizing,
+    ring: &[VertexId],
+    (v, w): (VertexId, VertexId),
+    limits: &Limits<'_>,
+) -> bool {
+    let longest = || ring.iter().map(|&x| sizing.ratio_between(positions, x, v)).fold(0.0, f64::max);
+    // Computed only where an edge is too long: rarely.
+    let is_split_anyway =
+        |ratio: f64| limits.may_lengthen && longest() > TOO_LONG && ratio <= STRETCH * longest();
+    let is_short = ring.iter().filter(|&&x| x != w).all(|&x| {
+        let ratio = sizing.ratio_between(positions, x, w);
+        ratio <= LONG || mesh.are_neighbours(x, w) || is_split_anyway(ratio)
+    });
     let Ok([a, b, c, d]) = <[VertexId; 4]>::try_from(ring) else { return is_short };
     let [p, q, r, s] = if w == a || w == c { [a, c, b, d] } else { [b, d, a, c] };
     is_short && fall_of_cotangents([p, q, r, s].map(|v| positions[v.index()])) <= LEAST_FALL

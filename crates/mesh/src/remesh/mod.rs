@@ -72,6 +72,12 @@ pub struct Limits<'a> {
     /// forbids collapses after a number of batches: what is left, splits of long edges and flips that lower their
     /// potential, comes to an end.
     pub may_collapse: bool,
+    /// Whether a collapse at a vertex with an edge above 1.6 of its target, which will be split in any case, may make others
+    /// as long (by a tenth at most); the default is no.
+    ///
+    /// A pass of [`collapse_short`] so allowed, before the first batch on a mesh that is fine one way and coarse the other,
+    /// takes out what would else be split across and collapsed afterwards.
+    pub may_lengthen: bool,
     /// The largest ring the solver can hold; no edit makes a larger one.
     pub most_neighbours: usize,
 }
@@ -89,6 +95,7 @@ impl Default for Limits<'_> {
             most_vertices: usize::MAX,
             growth: 0.10,
             may_collapse: true,
+            may_lengthen: false,
             most_neighbours: 24,
         }
     }
@@ -102,6 +109,7 @@ impl core::fmt::Debug for Limits<'_> {
             .field("most_vertices", &self.most_vertices)
             .field("growth", &self.growth)
             .field("may_collapse", &self.may_collapse)
+            .field("may_lengthen", &self.may_lengthen)
             .field("most_neighbours", &self.most_neighbours)
             .finish_non_exhaustive()
     }

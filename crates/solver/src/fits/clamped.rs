@@ -34,7 +34,7 @@ impl Fits {
         let price = sweep.goals.price(node);
         let fold = barrier::value(careful.fit.jacobian);
         (self.nodes[node].normal, self.nodes[node].l) = (normal, clamp.l());
-        self.nodes[node].energy = clamp.value(price.rows(), price.rows()) + fold;
+        self.energies[node] = clamp.value(price.rows(), price.rows()) + fold;
         self.keep(rings, node, 0, ring, true);
         self.clamps[place] = clamp;
         if sweep.wanted < Wanted::Rows {

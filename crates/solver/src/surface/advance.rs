@@ -70,10 +70,8 @@ impl SurfaceSolver {
             report.largest_relative_move = report.largest_relative_move.max(distance / h);
         }
         std::mem::swap(&mut self.fits, &mut self.trial);
-        positions.copy_from_slice(&self.fits.positions);
-        for (normal, fit) in self.normals.iter_mut().zip(&self.fits.nodes) {
-            *normal = fit.normal;
-        }
+        self.fits.copy_positions(positions);
+        self.take_normals();
         report.energy = self.fits.energy;
         let is_small = report.largest_relative_move < REST_MOVE
             && found.halvings == 0

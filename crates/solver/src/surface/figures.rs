@@ -42,7 +42,7 @@ impl SurfaceSolver {
 
     fn figures_of(&self, node: usize, ring: &Ring<f64>, careful: &CarefulFit) -> NodeFigures {
         if !careful.is_fitted() {
-            return NodeFigures { barrier: self.fits.nodes[node].energy, ..NodeFigures::default() };
+            return NodeFigures { barrier: self.fits.energies[node], ..NodeFigures::default() };
         }
         let fit = &careful.fit;
         NodeFigures {

@@ -6,16 +6,18 @@
 //! their fits, which stay exact to the bit. A bay wakes, with all others, when a control beside it is moved, when the
 //! surface bends more at its border, or when the caller wants everything at rest.
 
-use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use glam::DVec3;
 
 use super::{SurfaceSolver, field_preconditioner};
 use crate::assembly::Assembly;
 use crate::error::SolverError;
+use crate::fits::Active;
 use crate::laplacian::Acting;
 use crate::operator::{FIXED, Unknowns};
 use crate::precondition::Preconditioner;
+use crate::rings::Rings;
 
 /// Motion within a frame, in units of the mean edge, below which a bay may sleep. Well below what can be seen, so that it
 /// takes many frames until its border has stirred.
@@ -30,8 +32,8 @@ const WORTH: f64 = 0.7;
 /// What is put aside while bays sleep, and how to tell that they should wake.
 #[derive(Clone, Debug)]
 pub(super) struct Sleep {
-    /// Per node.
-    asleep: Vec<bool>,
+    /// How many nodes.
+    count: usize,
     /// Per node whether it may move: awake and free, or fixed with nothing asleep beside it.
     can_move: Vec<bool>,
     /// Fixed nodes between what sleeps and what is awake, with Jacobian and scaled curvature when it fell asleep.
@@ -46,6 +48,43 @@ struct Equations {
     assembly: Assembly,
     preconditioner: Preconditioner,
     field_preconditioner: Option<Preconditioner>,
+}
+
+/// The parts of the free nodes between fixed ones.
+#[derive(Clone, Debug)]
+pub(super) struct Bays {
+    /// The bay of every node, numbered by first node; fixed nodes are in none.
+    of: Vec<u32>,
+    sizes: Vec<usize>,
+}
+
+impl Bays {
+    fn new(rings: &Rings, fixed: &[bool]) -> Self {
+        let mut of = vec![FIXED; rings.len()];
+        let mut sizes = Vec::new();
+        let mut stack = Vec::new();
+        let mut number = 0;
+        for first in 0..rings.len() {
+            if of[first] != FIXED || fixed[first] {
+                continue;
+            }
+            of[first] = number;
+            stack.push(first);
+            let mut size = 0;
+            while let Some(node) = stack.pop() {
+                size += 1;
+                for &far in rings.ring(node) {
+                    if of[far as usize] == FIXED && !fixed[far as usize] {
+                        of[far as usize] = number;
+                        stack.push(far as usize);
+                    }
+                }
+            }
+            sizes.push(size);
+            number += 1;
+        }
+        Self { of, sizes }
+    }
 }
 
 impl SurfaceSolver {
@@ -63,27 +102,36 @@ impl SurfaceSolver {
             self.wake();
             return Ok(self.unknowns.len());
         }
-        let (bays, count) = self.bays();
-        let mut is_quiet = vec![true; count];
-        if count < 2 {
-            return Ok(self.unknowns.len());
-        }
-        for (node, &bay) in bays.iter().enumerate().filter(|&(_, &bay)| bay != FIXED) {
-            let moved = positions[node].distance(before[node]);
-            is_quiet[bay as usize] &= moved <= QUIET * self.fits.nodes[node].h;
-        }
-        let asleep: Vec<bool> = bays.iter().map(|&bay| bay != FIXED && is_quiet[bay as usize]).collect();
-        let sleeping = asleep.iter().filter(|&&asleep| asleep).count();
-        let free = bays.iter().filter(|&&bay| bay != FIXED).count();
-        let awake = free - sleeping;
+        let bays = self.bays.take().unwrap_or_else(|| Bays::new(&self.rings, &self.fixed));
+        let (is_quiet, sleeping) = self.quiet(&bays, before, positions);
+        let awake = bays.sizes.iter().sum::<usize>() - sleeping;
         let is_worth_it = sleeping >= self.settings.least_asleep
             && awake > 0
             && (awake as f64) <= WORTH * self.unknowns.len() as f64;
-        if is_worth_it {
+        let asleep = |&bay: &u32| bay != FIXED && is_quiet[bay as usize];
+        let asleep: Option<Vec<bool>> = is_worth_it.then(|| bays.of.iter().map(asleep).collect());
+        self.bays = Some(bays);
+        if let Some(asleep) = asleep {
             self.wake();
-            self.fall_asleep(asleep)?;
+            self.fall_asleep(asleep, sleeping)?;
         }
         Ok(self.unknowns.len())
+    }
+
+    /// Which bays hardly moved, and how many nodes they have.
+    fn quiet(&self, bays: &Bays, before: &[DVec3], positions: &[DVec3]) -> (Vec<bool>, usize) {
+        let mut is_quiet = vec![true; bays.sizes.len()];
+        // What is not fitted has not moved.
+        self.fits.each(|node| {
+            let bay = bays.of[node];
+            if bay != FIXED {
+                let moved = positions[node].distance(before[node]);
+                is_quiet[bay as usize] &= moved <= QUIET * self.fits.nodes[node].h;
+            }
+        });
+        let sizes = bays.sizes.iter().zip(&is_quiet).filter(|(_, is_quiet)| **is_quiet);
+        let sleeping = sizes.map(|(&size, _)| size).sum();
+        (is_quiet, sleeping)
     }
 
     /// Wakes every bay; returns whether any slept.
@@ -103,7 +151,7 @@ impl SurfaceSolver {
 
     /// How many free nodes sleep.
     pub fn asleep(&self) -> usize {
-        self.sleep.as_ref().map_or(0, |sleep| sleep.asleep.iter().filter(|&&asleep| asleep).count())
+        self.sleep.as_ref().map_or(0, |sleep| sleep.count)
     }
 
     /// Wakes everything if a control beside a sleeping bay is about to be moved.
@@ -136,12 +184,13 @@ impl SurfaceSolver {
         })
     }
 
-    fn fall_asleep(&mut self, asleep: Vec<bool>) -> Result<(), SolverError> {
+    fn fall_asleep(&mut self, asleep: Vec<bool>, count: usize) -> Result<(), SolverError> {
         // Both sets of fits must know the nodes that will not be fitted again.
         let positions = self.fits.positions.clone();
         self.fits.forget();
         self.fits.refit(&self.rings, &self.goals, &positions, crate::fits::Wanted::Gradient);
         self.trial.clone_from(&self.fits);
+        self.trial_positions.copy_from_slice(&positions);
         let has =
             |node: usize, what: &dyn Fn(u32) -> bool| self.rings.ring(node).iter().any(|&far| what(far));
         let sleeps = |node: u32| asleep[node as usize];
@@ -161,11 +210,7 @@ impl SurfaceSolver {
             })
             .collect();
         let stirs = |node: u32| can_move[node as usize] || has(node as usize, &|far| can_move[far as usize]);
-        let batches = self.rings.batches().iter().enumerate();
-        let active: BTreeSet<usize> = batches
-            .filter(|(_, batch)| batch.nodes.iter().any(|&node| stirs(node)))
-            .map(|(index, _)| index)
-            .collect();
+        let active = Arc::new(Active::new(&self.rings, stirs));
         let nodes = self.fixed.iter().zip(&asleep).enumerate();
         let unknowns = Unknowns::new(
             nodes.map(|(node, (fixed, asleep))| !fixed && !asleep && !self.rings.ring(node).is_empty()),
@@ -179,35 +224,11 @@ impl SurfaceSolver {
             field_preconditioner: std::mem::replace(&mut self.field_preconditioner, fields),
         };
         for fits in [&mut self.fits, &mut self.trial] {
-            fits.active = Some(active.iter().copied().collect());
+            fits.active = Some(Arc::clone(&active));
         }
         self.predictor.reset();
-        self.sleep = Some(Sleep { asleep, can_move, border, whole });
+        self.sleep = Some(Sleep { count, can_move, border, whole });
         Ok(())
-    }
-
-    /// The bay of every node, numbered by first node, and how many there are; fixed nodes are in none.
-    fn bays(&self) -> (Vec<u32>, usize) {
-        let mut bays = vec![FIXED; self.rings.len()];
-        let mut count = 0;
-        let mut stack = Vec::new();
-        for first in 0..self.rings.len() {
-            if bays[first] != FIXED || self.fixed[first] {
-                continue;
-            }
-            bays[first] = count;
-            stack.push(first);
-            while let Some(node) = stack.pop() {
-                for &far in self.rings.ring(node) {
-                    if bays[far as usize] == FIXED && !self.fixed[far as usize] {
-                        bays[far as usize] = count;
-                        stack.push(far as usize);
-                    }
-                }
-            }
-            count += 1;
-        }
-        (bays, count as usize)
     }
 }
 
