@@ -199,6 +199,42 @@ test("the settings of a surface over a cage are chosen in the properties, and ba
   });
 });
 
+test("a file of many triangles is imported as a mesh, and the other kind is one click away", async () => {
+  await withPage({ viewport: wide }, async (page) => {
+    await begun(page);
+    const [around, across] = [24, 12];
+    const angle = (k) => (2 * Math.PI * k) / around;
+    const vertices = [];
+    const faces = [];
+    for (let i = 0; i < around; i += 1) {
+      for (let j = 0; j < across; j += 1) {
+        const [radius, height] = [1 + 0.4 * Math.cos((2 * Math.PI * j) / across), 0.4 * Math.sin((2 * Math.PI * j) / across)];
+        vertices.push(`v ${radius * Math.cos(angle(i))} ${radius * Math.sin(angle(i))} ${height}`);
+        const name = (a, b) => 1 + (a % around) * across + (b % across);
+        faces.push(`f ${name(i, j)} ${name(i + 1, j)} ${name(i + 1, j + 1)}`, `f ${name(i, j)} ${name(i + 1, j + 1)} ${name(i, j + 1)}`);
+      }
+    }
+    const buffer = Buffer.from([...vertices, ...faces].join("\n"));
+    await page.locator("#file").setInputFiles({ name: "torus.obj", mimeType: "", buffer });
+    const mesh = await atRest(page, ({ act }) => act === "Import");
+    assert.equal(mesh.toast, "Imported as a mesh");
+    assert.deepEqual(mesh.surfaces.map(({ kind, summary }) => [kind, summary.euler, summary.genus]), [["Mesh", 0, 1]]);
+    assert.equal(mesh.points.length, 0);
+    await page.locator("#toast-button").click();
+    const cage = await atRest(page, ({ surfaces }) => surfaces.length === 1 && surfaces[0].kind === "Cage");
+    assert.equal(cage.points.length, around * across);
+    assert.equal(cage.toast, "Imported as a cage");
+    await page.locator("#toast-button").click();
+    const back = await atRest(page, ({ surfaces }) => surfaces.length === 1 && surfaces[0].kind === "Mesh");
+    assert.equal(back.document, mesh.document);
+    // Three pages on one spine are no surface of either kind: what was there stays.
+    const book = Buffer.from("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 1 1\nf 1 2 3\nf 1 2 4\nf 1 2 5\n");
+    await page.locator("#file").setInputFiles({ name: "book.obj", mimeType: "", buffer: book });
+    await untilInspect(page, ({ toast }) => /^Import: /.test(toast ?? ""));
+    assert.equal((await inspect(page)).document, back.document);
+  });
+});
+
 test("OBJ and PLY files are imported as cages, and what is none is refused with its place", async () => {
   await withPage({ viewport: wide }, async (page) => {
     await begun(page);

@@ -117,6 +117,45 @@ test("a foot is taken again, changed by numbers, erased; all are dropped", async
   });
 });
 
+test("a displaced surface is baked: the picture stays, the displacements go, and undo brings them back", async () => {
+  await withPage({ viewport: wide }, async (page) => {
+    const before = await atRest(page);
+    const [from, to] = onBareSurface(before);
+    await page.keyboard.press("e");
+    await drag(page, from, to);
+    await page.keyboard.press("v");
+    await pointAway(page);
+    const displaced = await atRest(page, ({ act, toast }) => act === "Displace" && toast === null);
+    const seen = await picture(page);
+    await page.locator("#bake").click();
+    await pointAway(page);
+    const baked = await atRest(page, ({ act, toast }) => act === "Bake" && toast === null);
+    assert.deepEqual(baked.surfaces.map(({ id, kind }) => [id, kind]), [[1, "Mesh"]]);
+    const { meshes, displacements, curves, points } = JSON.parse(baked.document);
+    assert.equal(meshes[1].vertices.length, displaced.surfaces[0].vertex_count);
+    assert.equal(displacements, undefined);
+    assert.deepEqual([Object.keys(curves).length, Object.keys(points).length], [1, 4], "its boundary stays");
+    // Three raised points are gone, and the curve is of another colour now: nothing holds on to it.
+    const changed = difference(seen, await picture(page));
+    assert.ok(changed < 0.02, `the picture is another one in ${changed} of its pixels`);
+    await page.locator("#bake").waitFor({ state: "hidden" });
+    await page.locator('#scene-list [data-subject="surface 1"]', { hasText: "mesh" }).waitFor();
+
+    // It turns inside out, and is displaced once more.
+    await page.locator("#reverse").click();
+    await atRest(page, ({ act }) => act === "Reverse");
+    await page.keyboard.press("e");
+    await drag(page, to, [to[0] + 20, to[1] - 10]);
+    const again = await atRest(page, ({ act, feet }) => act === "Displace" && feet.length === 1);
+    assert.equal(again.surfaces[0].kind, "Mesh");
+    for (const act of ["Displace", "Reverse", "Bake"]) {
+      await page.keyboard.press("Control+z");
+      await atRest(page, (state) => state.act === `Undo ${act}`);
+    }
+    assert.equal((await inspect(page)).document, displaced.document);
+  });
+});
+
 test("a displaced surface travels by link and comes back after a reload", async () => {
   const session = await open({ viewport: wide, context });
   try {

@@ -5,7 +5,7 @@ use crate::script::{self, Entry};
 use crate::solve::{SurfaceReport, surface_reports};
 use ductile_modeler::Modeler;
 use ductile_spec::{
-    Document, ExportFormat, FrameHeader, MAX_TEXT_BYTES, Reply, Request, Step, Structure, to_text,
+    Document, ExportFormat, FrameHeader, ImportAs, MAX_TEXT_BYTES, Reply, Request, Step, Structure, to_text,
 };
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -17,9 +17,12 @@ use std::process::ExitCode;
 pub(crate) struct Options {
     /// Script file: a JSON list of acts, or - for standard input
     script: PathBuf,
-    /// Spec file to begin with, or a cage as an OBJ or PLY file, instead of an empty document
+    /// Spec file to begin with, or polygons as an OBJ or PLY file, instead of an empty document
     #[arg(long, value_name = "SPEC")]
     from: Option<PathBuf>,
+    /// What the polygons of --from become; left out, many triangles are a mesh, all else is a cage
+    #[arg(long = "as", value_name = "KIND", requires = "from")]
+    import: Option<Import>,
     /// Spec file to write, or - for standard output
     #[arg(short, long, value_name = "OUT.ductile.json")]
     out: Option<PathBuf>,
@@ -35,6 +38,24 @@ pub(crate) struct Options {
     /// Conjugate-gradient iterations that a step may spend
     #[arg(long, default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     iterations: u32,
+}
+
+/// What polygons become.
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+enum Import {
+    /// A cage, with an exact surface over it
+    Cage,
+    /// A fixed mesh
+    Mesh,
+}
+
+impl Import {
+    fn meant(self) -> ImportAs {
+        match self {
+            Self::Cage => ImportAs::Cage,
+            Self::Mesh => ImportAs::Mesh,
+        }
+    }
 }
 
 #[derive(Serialize)]
@@ -98,8 +119,8 @@ fn missing<K: Ord, V, W>(
 fn missing_surfaces(one: &Document, other: &Document) -> Vec<u32> {
     let all = |document: &Document| -> Vec<u32> {
         let fair = document.surfaces.keys();
-        let mut all: Vec<u32> =
-            fair.chain(document.cages.keys()).chain(document.fills.keys()).map(|id| id.0).collect();
+        let exact = document.cages.keys().chain(document.fills.keys());
+        let mut all: Vec<u32> = fair.chain(exact).chain(document.meshes.keys()).map(|id| id.0).collect();
         all.sort_unstable();
         all
     };
@@ -169,7 +190,10 @@ pub(crate) fn run(options: &Options) -> Result<ExitCode, CliError> {
         Session { modeler: Modeler::new(), structure: Structure::default(), frame: FrameHeader::default() };
     if let Some(spec) = &options.from {
         let request = match input::import_format(spec) {
-            Some(format) => Request::Import { format, bytes: input::bytes_up_to(spec, MAX_TEXT_BYTES)? },
+            Some(format) => {
+                let bytes = input::bytes_up_to(spec, MAX_TEXT_BYTES)?;
+                Request::Import { format, bytes, into: options.import.map(Import::meant) }
+            }
             None => Request::OpenText { text: input::document(spec)?.0 },
         };
         session.ask(request).map_err(|reason| refuse(spec, reason))?;

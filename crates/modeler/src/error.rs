@@ -193,8 +193,14 @@ pub enum ModelError {
         /// The curve.
         curve: CurveId,
     },
+    /// The surface is a fixed mesh already, and nothing is displaced.
+    #[error("{0} is a fixed mesh already, and it has no displacements")]
+    NothingToBake(SurfaceId),
+    /// The surface has no triangles at the moment.
+    #[error("{0} shows nothing that could be baked")]
+    NothingShown(SurfaceId),
     /// The surface is no exact one.
-    #[error("{0} is no surface over a cage and no fill")]
+    #[error("{0} is no surface over a cage, no fill and no mesh")]
     NoPatch(SurfaceId),
     /// The curve does not run along the rim of the exact surface.
     #[error("{curve} does not run along a rim of {surface}: there is nothing to go on from")]
@@ -511,6 +517,7 @@ impl ModelError {
         let kind = match document.kind_of(surface) {
             Some(SurfaceKind::Cage) => "a surface over a cage",
             Some(SurfaceKind::Fill) => "a patch that fills a loop",
+            Some(SurfaceKind::Mesh) => "a fixed mesh",
             Some(SurfaceKind::Fair) | None => return self,
         };
         Self::OnlyFair { surface, kind, act }

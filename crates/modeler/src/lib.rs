@@ -34,6 +34,6 @@ pub use error::ModelError;
 pub use example::example;
 pub use model::Model;
 pub use modeler::Modeler;
-pub use patch::{CageShape, FillError, FillShape, NetLines, PatchShape};
+pub use patch::{CageShape, FillError, FillShape, MeshShape, NetLines, PatchShape};
 pub use relax::{Relaxation, Relaxer};
 pub use shape::{CurveShape, EmbeddedCurve, Pin, SurfaceShape};

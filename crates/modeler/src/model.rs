@@ -44,7 +44,7 @@ impl Model {
             model.build_surface(id)?;
         }
         let exact = model.document.cages.keys().chain(model.document.fills.keys());
-        for id in exact.copied().collect::<Vec<_>>() {
+        for id in exact.chain(model.document.meshes.keys()).copied().collect::<Vec<_>>() {
             model.build_patch(id)?;
         }
         patch::follow(&mut model, None);

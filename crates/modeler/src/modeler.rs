@@ -132,9 +132,8 @@ impl Modeler {
         match request {
             Request::OpenText { text } => self.open("Open", from_text(&text)?),
             Request::OpenLink { link } => self.open("Open link", from_fragment(&link)?),
-            Request::Import { format, bytes } => {
-                self.whole("Import", |modeler, _| operation::import(&mut modeler.model, format, &bytes))
-            }
+            Request::Import { format, bytes, into } => self
+                .whole("Import", |modeler, _| operation::import(&mut modeler.model, (format, &bytes), into)),
             Request::OpenExample(kind) => self.open(kind.title(), example(kind)),
             Request::New => self.open("New", Document::default()),
             Request::Resume(resume) => self.resume(&resume),

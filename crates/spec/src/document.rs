@@ -8,6 +8,7 @@
 use crate::cage::Cage;
 use crate::displacement::Displaced;
 use crate::fill::Fill;
+use crate::fixed_mesh::FixedMesh;
 use crate::frame::SurfaceKind;
 use crate::id::{CurveId, PointId, SurfaceId};
 use glam::DVec3;
@@ -34,12 +35,14 @@ pub struct Document {
     pub points: BTreeMap<PointId, DVec3>,
     /// The control curves.
     pub curves: BTreeMap<CurveId, Curve>,
-    /// The fair surfaces. They, the cages and the fills are all surfaces: an identity is given once among the three.
+    /// The fair surfaces. They, the cages, the fills and the meshes are all surfaces: an identity is given once among the four.
     pub surfaces: BTreeMap<SurfaceId, Surface>,
     /// The surfaces over cages.
     pub cages: BTreeMap<SurfaceId, Cage>,
     /// The patches that fill loops of curves.
     pub fills: BTreeMap<SurfaceId, Fill>,
+    /// The fixed meshes.
+    pub meshes: BTreeMap<SurfaceId, FixedMesh>,
     /// What moves the inside of surfaces, of whatever kind.
     pub displacements: BTreeMap<SurfaceId, Displaced>,
 }
@@ -294,7 +297,8 @@ impl Document {
     #[must_use]
     pub fn next_surface(&self) -> SurfaceId {
         let fair = self.surfaces.last_key_value().map(|(id, _)| id.0);
-        let exact = [self.cages.keys().next_back(), self.fills.keys().next_back()];
+        let exact =
+            [self.cages.keys().next_back(), self.fills.keys().next_back(), self.meshes.keys().next_back()];
         let last = fair.max(exact.into_iter().flatten().map(|id| id.0).max());
         SurfaceId(after(last, |id| self.kind_of(SurfaceId(id)).is_some()))
     }
@@ -306,8 +310,10 @@ impl Document {
             Some(SurfaceKind::Fair)
         } else if self.cages.contains_key(&surface) {
             Some(SurfaceKind::Cage)
+        } else if self.fills.contains_key(&surface) {
+            Some(SurfaceKind::Fill)
         } else {
-            self.fills.contains_key(&surface).then_some(SurfaceKind::Fill)
+            self.meshes.contains_key(&surface).then_some(SurfaceKind::Mesh)
         }
     }
 
@@ -344,7 +350,7 @@ impl Document {
             .map(|(id, _)| *id)
     }
 
-    /// Half the diagonal of the box around all points, free skeleton vertices and ribbons, and its centre.
+    /// Half the diagonal of the box around all points, free skeleton vertices, ribbons and fixed meshes, and its centre.
     ///
     /// Zero for an empty document.
     #[must_use]
@@ -357,7 +363,8 @@ impl Document {
         let mut high = DVec3::NEG_INFINITY;
         let ribbons = self.fills.values().flat_map(|fill| &fill.ribbons);
         let rows = ribbons.flat_map(|ribbon| ribbon.row0.iter().chain(&ribbon.row1));
-        for at in self.points.values().chain(free).chain(rows) {
+        let fixed = self.meshes.values().flat_map(|mesh| &mesh.vertices);
+        for at in self.points.values().chain(free).chain(rows).chain(fixed) {
             low = low.min(*at);
             high = high.max(*at);
         }

@@ -6,6 +6,7 @@ use crate::cage_source::CageSource;
 use crate::displacement::{Blending, Displacement};
 use crate::document::{Density, Objective};
 use crate::fill::{FillStyle, Hole};
+use crate::fixed_mesh::MeshSource;
 use crate::id::{CurveId, PointId, SurfaceId};
 use crate::surgery::{Border, Extent, On};
 use glam::DVec3;
@@ -273,6 +274,17 @@ pub enum Edit {
         /// The choice.
         blending: Blending,
     },
+    /// Makes a fixed mesh.
+    Mesh {
+        /// Which mesh.
+        from: MeshSource,
+    },
+    /// Makes a fixed mesh of what is shown of a surface, with its displacements. It keeps its number; the curves that it followed
+    /// stay, and what takes tangent planes from the inside of a fair surface is freed.
+    Bake {
+        /// Which surface.
+        surface: SurfaceId,
+    },
     /// Lays a surface over a cage. The vertices of the cage become control points.
     Cage {
         /// Which cage.
@@ -373,6 +385,8 @@ impl Edit {
             Self::EraseDisplacement { .. } => "Erase displacement",
             Self::DropDisplacements { .. } => "Drop displacements",
             Self::Blending { .. } => "Blending",
+            Self::Mesh { .. } => "Mesh",
+            Self::Bake { .. } => "Bake",
             Self::Cage { .. } => "Cage",
             Self::CageSettings { .. } => "Cage settings",
             Self::Extrude { .. } => "Extrude",

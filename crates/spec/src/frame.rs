@@ -110,6 +110,8 @@ pub enum SurfaceKind {
     Cage,
     /// An exact patch in a loop of curves.
     Fill,
+    /// A fixed mesh.
+    Mesh,
 }
 
 /// Stands for no region.

@@ -13,6 +13,7 @@ mod document;
 mod edit;
 mod example;
 mod fill;
+mod fixed_mesh;
 mod frame;
 mod id;
 mod protocol;
@@ -40,14 +41,15 @@ pub use example::Example;
 pub use fill::{
     CurveStretch, FILL_RESOLUTION, Fill, FillInterior, FillJoin, FillRibbon, FillSide, FillStyle, Hole,
 };
+pub use fixed_mesh::{FixedMesh, MOST_MESH_TRIANGLES, MOST_MESH_VERTICES, MeshSource};
 pub use frame::{
     CurveRole, CurveSpan, Figures, FootEntry, FrameHeader, NO_REGION, Net, PointEntry, PointRole,
     RegionEntry, Structure, SurfaceKind, SurfaceSpan, SurfaceSummary, VERTEX_FLOATS, vertex_layout,
 };
 pub use id::{CurveId, PointId, SurfaceId};
 pub use protocol::{
-    Committed, ExportFormat, Exported, FoundLoop, Grabbed, ImportFormat, Meeting, MeetingLine, Pulled, Reach,
-    Refusal, Remembered, Reply, Request, Resume, Step, TRAP,
+    Committed, ExportFormat, Exported, FoundLoop, Grabbed, ImportAs, ImportFormat, Meeting, MeetingLine,
+    Pulled, Reach, Refusal, Remembered, Reply, Request, Resume, Step, TRAP,
 };
 pub use seams::{FillFigures, SeamFigures, Seams};
 pub use share::{FRAGMENT_KEY, LinkError, MAX_LINK_BYTES, from_fragment, to_fragment};

@@ -29,13 +29,15 @@ pub enum Request {
         /// The link.
         link: String,
     },
-    /// Lays a surface over the polygons of a file: an act like any other, beside what is there.
+    /// Makes a surface of the polygons of a file: an act like any other, beside what is there.
     Import {
         /// What the bytes are.
         format: ImportFormat,
         /// What is in the file, at most [`crate::MAX_TEXT_BYTES`].
         #[serde(with = "crate::bytes")]
         bytes: Vec<u8>,
+        /// What becomes of the polygons; without it [`ImportAs::suited`] decides.
+        into: Option<ImportAs>,
     },
     /// Opens an example.
     OpenExample(Example),
@@ -131,6 +133,29 @@ pub enum ImportFormat {
     Obj,
     /// The polygon file format, as text or binary.
     Ply,
+}
+
+/// What becomes of the polygons of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ImportAs {
+    /// A cage, with an exact surface over it.
+    Cage,
+    /// A fixed mesh; polygons are cut into triangles.
+    Mesh,
+}
+
+/// Triangles from which on a file of nothing else is a mesh: cages that people draw have fewer faces, and scans and exported
+/// surfaces more.
+const MESH_FROM: usize = 300;
+
+impl ImportAs {
+    /// What a file most likely is, by the corners of its faces.
+    #[must_use]
+    pub fn suited(faces: &[Vec<u32>]) -> Self {
+        let is_mesh = faces.len() >= MESH_FROM && faces.iter().all(|face| face.len() == 3);
+        if is_mesh { Self::Mesh } else { Self::Cage }
+    }
 }
 
 impl ImportFormat {

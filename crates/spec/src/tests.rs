@@ -408,7 +408,8 @@ fn cages_that_make_no_sense_are_named() {
 
 #[test]
 fn a_file_travels_as_bytes() {
-    let request = Request::Import { format: ImportFormat::Ply, bytes: vec![0, 127, 255] };
+    let request =
+        Request::Import { format: ImportFormat::Ply, bytes: vec![0, 127, 255], into: Some(ImportAs::Mesh) };
     let text = serde_json::to_string(&request).unwrap();
     assert_eq!(serde_json::from_str::<Request>(&text).unwrap(), request);
     let formats = ["a.b.PLY", "cage.obj", "ply", "x.stl"].map(ImportFormat::of_name);
@@ -424,4 +425,83 @@ fn a_new_identity_is_free_even_if_the_last_one_is_taken() {
     document.points.remove(&PointId(u32::MAX));
     document.points.remove(&PointId(1));
     assert_eq!(document.next_point(), PointId(3));
+}
+
+/// A document with a mesh of two triangles.
+fn meshed() -> Document {
+    let mut document = sample();
+    let vertices = vec![DVec3::ZERO, DVec3::X, DVec3::ONE, DVec3::Y];
+    document.meshes.insert(SurfaceId(5), FixedMesh { vertices, triangles: vec![[0, 1, 2], [0, 2, 3]] });
+    document
+}
+
+#[test]
+fn a_fixed_mesh_is_written_and_comes_back() {
+    let mut document = meshed();
+    document.validate().unwrap();
+    assert!(!to_compact_text(&sample()).contains("meshes"));
+    let text = to_compact_text(&document);
+    let words = r#""meshes":{"5":{"vertices":[[0.0,0.0,0.0],[1.0,0.0,0.0],[1.0,1.0,1.0],[0.0,1.0,0.0]],"triangles":[[0,1,2],[0,2,3]]}}"#;
+    assert!(text.contains(words), "{text}");
+    assert_eq!(from_text(&text).unwrap(), document);
+    assert_eq!(from_text(&to_text(&document)).unwrap(), document);
+    assert_eq!(
+        (document.next_surface(), document.kind_of(SurfaceId(5))),
+        (SurfaceId(6), Some(SurfaceKind::Mesh))
+    );
+    let mesh = document.meshes.get_mut(&SurfaceId(5)).unwrap();
+    mesh.vertices.insert(1, DVec3::splat(1e5));
+    mesh.triangles = vec![[0, 2, 3], [0, 3, 4]];
+    assert_eq!(mesh.without_unused(), meshed().meshes[&SurfaceId(5)]);
+    let reach = document.extent().1;
+    assert!(reach > 5e4, "what it has counts: {reach}");
+}
+
+#[test]
+fn meshes_that_make_no_sense_are_named() {
+    let broken = |change: &dyn Fn(&mut FixedMesh)| {
+        let mut document = meshed();
+        change(document.meshes.get_mut(&SurfaceId(5)).unwrap());
+        document.validate().unwrap_err().to_string()
+    };
+    assert!(broken(&|mesh| mesh.triangles.clear()).contains("surface 5 has no triangles"));
+    assert!(
+        broken(&|mesh| mesh.triangles[1][2] = 4).contains("surface 5, triangle 1: corner 4 does not exist")
+    );
+    assert!(broken(&|mesh| mesh.triangles[1] = [3, 2, 2]).contains("triangle 1: corner 2 or another one"));
+    assert!(broken(&|mesh| mesh.vertices.push(DVec3::ONE)).contains("surface 5: no triangle has vertex 4"));
+    assert!(
+        broken(&|mesh| mesh.vertices[2].y = f64::NAN).contains("surface 5, vertex 2: a coordinate is NaN")
+    );
+    assert!(
+        broken(&|mesh| mesh.vertices[0].z = 2e6).contains("surface 5, vertex 0: a coordinate is 2000000")
+    );
+    let mut document = meshed();
+    document.meshes.insert(SurfaceId(2), document.meshes[&SurfaceId(5)].clone());
+    assert_eq!(document.validate(), Err(Defect::TwoKinds(SurfaceId(2))));
+    for (vertices, triangles) in [(MOST_MESH_VERTICES + 1, 1), (3, MOST_MESH_TRIANGLES + 1)] {
+        let mut document = meshed();
+        let mesh = FixedMesh { vertices: vec![DVec3::ONE; vertices], triangles: vec![[0, 1, 2]; triangles] };
+        document.meshes.insert(SurfaceId(6), mesh);
+        let refused = document.validate().unwrap_err();
+        assert!(matches!(refused, Defect::TooMany { what, .. } if what.contains("of meshes")), "{refused}");
+    }
+}
+
+#[test]
+fn the_largest_mesh_with_all_digits_is_a_file_that_can_be_read() {
+    // A closed surface has twice as many triangles as vertices. Sixteen digits and a sign are the most that baked coordinates never
+    // have and given ones may.
+    let mut document = Document::default();
+    let vertex = DVec3::new(-123_456.789_012_345_67, -0.123_456_789_012_345_67, -98_765.432_109_876_54);
+    let last = u32::try_from(MOST_MESH_VERTICES).unwrap() - 1;
+    let triangles = (0..MOST_MESH_TRIANGLES).map(|k| match u32::try_from(k).unwrap() {
+        k if k < last - 1 => [k, k + 1, k + 2],
+        _ => [last - 2, last - 1, last],
+    });
+    let mesh = FixedMesh { vertices: vec![vertex; MOST_MESH_VERTICES], triangles: triangles.collect() };
+    document.meshes.insert(SurfaceId(1), mesh);
+    let text = to_text(&document);
+    println!("the largest mesh: {} bytes", text.len());
+    assert_eq!(from_text(&text), Ok(document));
 }

@@ -8,6 +8,7 @@ use crate::cage::Cage;
 use crate::displacement::Displaced;
 use crate::document::{Curve, Density, Document, Objective, Surface};
 use crate::fill::Fill;
+use crate::fixed_mesh::FixedMesh;
 use crate::id::{CurveId, PointId, SurfaceId};
 use crate::validate::Defect;
 use glam::DVec3;
@@ -71,6 +72,8 @@ struct Written<'a> {
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     fills: &'a BTreeMap<SurfaceId, Fill>,
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    meshes: &'a BTreeMap<SurfaceId, FixedMesh>,
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     displacements: &'a BTreeMap<SurfaceId, Displaced>,
 }
 
@@ -98,6 +101,8 @@ struct Read {
     #[serde(default, deserialize_with = "unique")]
     fills: BTreeMap<SurfaceId, Fill>,
     #[serde(default, deserialize_with = "unique")]
+    meshes: BTreeMap<SurfaceId, FixedMesh>,
+    #[serde(default, deserialize_with = "unique")]
     displacements: BTreeMap<SurfaceId, Displaced>,
 }
 
@@ -114,8 +119,8 @@ pub fn to_text(document: &Document) -> String {
 /// The document as the shortest text, for a link or a journal.
 #[must_use]
 pub fn to_compact_text(document: &Document) -> String {
-    let Document { name, objective, spacing, density, points, curves, surfaces, cages, fills, displacements } =
-        document;
+    let Document { name, objective, spacing, density, points, curves, surfaces, .. } = document;
+    let Document { cages, fills, meshes, displacements, .. } = document;
     let written = Written {
         ductile: FORMAT_VERSION,
         name,
@@ -127,6 +132,7 @@ pub fn to_compact_text(document: &Document) -> String {
         surfaces,
         cages,
         fills,
+        meshes,
         displacements,
     };
     serde_json::to_string(&written).unwrap_or_default()
@@ -150,9 +156,10 @@ pub fn from_text(text: &str) -> Result<Document, TextError> {
     }
     let read: Read = serde_json::from_str(text).map_err(|e| TextError::Form(e.to_string()))?;
     let Read { name, objective, spacing, density, points, curves, surfaces, .. } = read;
-    let Read { cages, fills, displacements, .. } = read;
+    let Read { cages, fills, meshes, displacements, .. } = read;
+    let surfaces_of_kinds = Document { surfaces, cages, fills, meshes, ..Document::default() };
     let document =
-        Document { name, objective, spacing, density, points, curves, surfaces, cages, fills, displacements };
+        Document { name, objective, spacing, density, points, curves, displacements, ..surfaces_of_kinds };
     document.validate()?;
     Ok(document)
 }

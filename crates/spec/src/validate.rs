@@ -10,6 +10,7 @@ use thiserror::Error;
 
 mod displacement;
 mod exact;
+mod mesh;
 
 /// Limits that keep hostile input from exhausting memory; each is far above what a designer makes.
 const MAX_POINTS: usize = 20_000;
@@ -171,6 +172,14 @@ pub enum Defect {
         /// How many corners it has.
         corners: usize,
     },
+    /// A vertex of a fixed mesh is a corner of no triangle.
+    #[error("{surface}: no triangle has vertex {vertex}")]
+    UnusedVertex {
+        /// Which mesh.
+        surface: SurfaceId,
+        /// Index of the vertex.
+        vertex: usize,
+    },
     /// A setting of a cage is out of range.
     #[error("{surface}, {what}: {value}; it lies between 1 and {most}")]
     CageSetting {
@@ -303,6 +312,7 @@ impl Document {
             validate_surface(*id, surface, self)?;
         }
         self.validate_exact()?;
+        self.validate_meshes()?;
         self.validate_displacements()
     }
 }
@@ -432,10 +442,8 @@ fn validate_planes(id: SurfaceId, surface: &Surface, document: &Document) -> Res
             Some(_) if !ribbon.cross.is_empty() => {
                 return refuse("it has directions and another surface to go on from: only one can be met");
             }
-            Some(other)
-                if !matches!(document.kind_of(other), Some(SurfaceKind::Cage | SurfaceKind::Fill)) =>
-            {
-                return refuse("what it goes on from is no surface over a cage and no fill");
+            Some(other) if matches!(document.kind_of(other), Some(SurfaceKind::Fair) | None) => {
+                return refuse("what it goes on from is no surface over a cage, no fill and no mesh");
             }
             Some(other) if takes_planes(document, other, *along, id) => {
                 return refuse("what it goes on from goes on from it: one of the two must lead");

@@ -125,6 +125,19 @@ impl Displacer {
         }
     }
 
+    /// What is shown of a surface: where its vertices are, and its triangles; nothing while nothing is shown.
+    pub(crate) fn shown<'a>(
+        &'a self,
+        model: &'a Model,
+        relaxer: &'a Relaxer,
+        id: SurfaceId,
+    ) -> Option<(&'a [DVec3], &'a [[u32; 3]])> {
+        if let Some(overlay) = self.overlays.get(&id) {
+            return Some((overlay.positions(), overlay.triangles()));
+        }
+        Base::of(model, relaxer, id).map(|base| (base.positions, base.triangles))
+    }
+
     /// The place of the base under a place of what is shown.
     pub(crate) fn on_base(&self, id: SurfaceId, at: DVec3) -> DVec3 {
         self.overlays.get(&id).map_or(at, |overlay| overlay.on_base(at))

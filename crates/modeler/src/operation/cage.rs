@@ -4,9 +4,8 @@
 use crate::error::ModelError;
 use crate::model::Model;
 use crate::operation::kept_position;
-use ductile_mesh::io::{Polygons, obj, ply};
 use ductile_patch::cage::{Cage, CageError, primitive};
-use ductile_spec::{CageForm, CageSource, ImportFormat, MAX_COORDINATE, PointId};
+use ductile_spec::{CageForm, CageSource, MAX_COORDINATE, PointId};
 use glam::DVec3;
 
 /// Radii of the centre circle and of the tube of a torus, as parts of its size.
@@ -29,19 +28,6 @@ pub(crate) fn cage(model: &mut Model, from: &CageSource) -> Result<(), ModelErro
     }
 }
 
-/// Lays a surface over the polygons of a file.
-pub(crate) fn import(model: &mut Model, format: ImportFormat, bytes: &[u8]) -> Result<(), ModelError> {
-    let Polygons { positions, faces } = match format {
-        ImportFormat::Obj => {
-            let text = std::str::from_utf8(bytes).map_err(|_| ModelError::NoText)?;
-            obj::read_polygons(text).map_err(ModelError::Obj)?
-        }
-        ImportFormat::Ply => ply::read_polygons(bytes).map_err(ModelError::Ply)?,
-    };
-    lay(model, &positions, &faces)?;
-    model.check_extents()
-}
-
 /// A cage of that form about the origin. Those that turn about an axis turn about z.
 pub(crate) fn built_in(form: CageForm, size: f64) -> Result<Cage, CageError> {
     match form {
@@ -58,7 +44,7 @@ pub(crate) fn built_in(form: CageForm, size: f64) -> Result<Cage, CageError> {
 }
 
 /// Takes a cage into the document; vertices that no face uses stay behind.
-fn lay(model: &mut Model, vertices: &[DVec3], faces: &[Vec<u32>]) -> Result<(), ModelError> {
+pub(super) fn lay(model: &mut Model, vertices: &[DVec3], faces: &[Vec<u32>]) -> Result<(), ModelError> {
     // What is wrong is said in the names that were given; afterwards they are those of points.
     Cage::new(vertices.to_vec(), faces.to_vec()).map_err(ModelError::NoCage)?;
     let mut names: Vec<Option<PointId>> = vec![None; vertices.len()];

@@ -74,14 +74,20 @@ pub(crate) fn curve(model: &mut Model, id: CurveId) -> Result<(), ModelError> {
 
 /// Removes a surface; its curves stay.
 pub(crate) fn surface(model: &mut Model, id: SurfaceId) -> Result<(), ModelError> {
-    model.document_mut().displacements.remove(&id);
     ribbon::forget_onto(model, id);
+    take_out(model, id)
+}
+
+/// Removes a surface with its displacements, but nothing that names it elsewhere.
+pub(super) fn take_out(model: &mut Model, id: SurfaceId) -> Result<(), ModelError> {
+    model.document_mut().displacements.remove(&id);
     if let Some(cage) = model.document_mut().cages.remove(&id) {
         model.patches.remove(&id);
         drop_unused(model, cage.points());
         return Ok(());
     }
-    if model.document_mut().fills.remove(&id).is_some() {
+    let document = model.document_mut();
+    if document.fills.remove(&id).is_some() || document.meshes.remove(&id).is_some() {
         model.patches.remove(&id);
         return Ok(());
     }

@@ -1,6 +1,7 @@
 //! The acts of a designer, one file each. An act changes document and shapes together; when it fails the
 //! caller throws the changed model away and keeps the one before.
 
+mod bake;
 mod burnout;
 pub(crate) mod cage;
 mod cage_settings;
@@ -14,8 +15,10 @@ mod expand;
 mod extrude;
 mod fill;
 mod glue;
+mod import;
 mod insert;
 mod merge;
+mod mesh;
 mod normal;
 mod objective;
 mod pin;
@@ -50,9 +53,9 @@ use ductile_spec::{Edit, MAX_COORDINATE, PointId, SurfaceId};
 use glam::DVec3;
 use std::sync::Arc;
 
-pub(crate) use cage::import;
 pub(crate) use delete::drop_unused;
 pub(crate) use fill::{forget_lost as forget_lost_planes, found_loop};
+pub(crate) use import::import;
 pub(crate) use insert::insert;
 pub(crate) use pin::pin;
 pub(crate) use ribbon::forget_lost;
@@ -95,7 +98,8 @@ pub(crate) fn apply(
     model.check_extents()
 }
 
-/// Whether an act is about displacements, which lie over the shapes and change none of them.
+/// Whether an act is about displacements, which lie over the shapes, and has to find them in the document. All but `bake` change none
+/// of the shapes.
 pub(crate) fn displaces(edit: &Edit) -> bool {
     matches!(
         edit,
@@ -104,6 +108,7 @@ pub(crate) fn displaces(edit: &Edit) -> bool {
             | Edit::EraseDisplacement { .. }
             | Edit::DropDisplacements { .. }
             | Edit::Blending { .. }
+            | Edit::Bake { .. }
     )
 }
 
@@ -119,6 +124,7 @@ fn displacing(
         Edit::EraseDisplacement { surface, number } => displace::erase(model, *surface, *number),
         Edit::DropDisplacements { surface } => displace::drop_all(model, *surface),
         Edit::Blending { surface, blending } => displace::blend(all, *surface, blending),
+        Edit::Bake { surface } => bake::bake(all, *surface),
         _ => return None,
     })
 }
@@ -159,6 +165,7 @@ fn act(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result<(), ModelErr
             ribbon::ribbon(model, relaxer, *surface, *curve, leave.as_ref())
         }
         Edit::Shift { points, by } => shift::shift(model, points, *by),
+        Edit::Mesh { from } => mesh::mesh(model, from),
         Edit::Cage { .. }
         | Edit::CageSettings { .. }
         | Edit::Extrude { .. }
@@ -174,7 +181,8 @@ fn act(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result<(), ModelErr
         | Edit::ChangeDisplacement { .. }
         | Edit::EraseDisplacement { .. }
         | Edit::DropDisplacements { .. }
-        | Edit::Blending { .. } => Ok(()),
+        | Edit::Blending { .. }
+        | Edit::Bake { .. } => Ok(()),
     }
 }
 

@@ -1,4 +1,5 @@
 //! `reverse`: a surface is turned inside out (thesis section 7.2.3). Neighbouring triangles always agree where they can.
+//! A fixed mesh is turned in the document.
 
 use crate::error::ModelError;
 use crate::model::Model;
@@ -8,6 +9,10 @@ use ductile_spec::{CurveId, Side, SurfaceId};
 
 /// Turns every triangle around. What lay to the left of a curve lies to its right then, and is called so.
 pub(super) fn reverse(model: &mut Model, id: SurfaceId) -> Result<(), ModelError> {
+    if let Some(mesh) = model.document_mut().meshes.get_mut(&id) {
+        mesh.triangles.iter_mut().for_each(|corners| corners.swap(1, 2));
+        return model.build_patch(id);
+    }
     let revision = model.next_revision();
     let shape = edit(model.surfaces.get_mut(&id).ok_or(ModelError::NoSurface(id))?);
     ductile_mesh::reverse(&mut shape.mesh);

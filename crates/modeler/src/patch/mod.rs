@@ -1,8 +1,10 @@
 //! Exact surfaces: those that are computed from their controls at once and need no relaxation. They follow their controls
-//! in every frame, in the middle of a drag too, and never keep a model from resting.
+//! in every frame, in the middle of a drag too, and never keep a model from resting. Fixed meshes, which have no controls, are
+//! among them.
 
 mod cage;
 pub(crate) mod fill;
+mod mesh;
 mod polygons;
 mod rim;
 #[cfg(test)]
@@ -19,6 +21,7 @@ use glam::DVec3;
 
 pub use cage::CageShape;
 pub use fill::{FillError, FillShape};
+pub use mesh::MeshShape;
 pub(crate) use polygons::{caged, change};
 pub(crate) use rim::PatchRim;
 
@@ -29,6 +32,8 @@ pub enum PatchShape {
     Cage(CageShape),
     /// A patch in a loop of curves.
     Fill(FillShape),
+    /// A fixed mesh.
+    Mesh(MeshShape),
 }
 
 /// A control net: places and the edges between them.
@@ -41,6 +46,7 @@ impl PatchShape {
         match self {
             Self::Cage(_) => SurfaceKind::Cage,
             Self::Fill(_) => SurfaceKind::Fill,
+            Self::Mesh(_) => SurfaceKind::Mesh,
         }
     }
 
@@ -50,6 +56,7 @@ impl PatchShape {
         match self {
             Self::Cage(shape) => shape.positions(),
             Self::Fill(shape) => shape.positions(),
+            Self::Mesh(shape) => shape.positions(),
         }
     }
 
@@ -59,6 +66,7 @@ impl PatchShape {
         match self {
             Self::Cage(shape) => shape.normals(),
             Self::Fill(shape) => shape.normals(),
+            Self::Mesh(shape) => shape.normals(),
         }
     }
 
@@ -68,6 +76,7 @@ impl PatchShape {
         match self {
             Self::Cage(shape) => shape.triangles(),
             Self::Fill(shape) => shape.triangles(),
+            Self::Mesh(shape) => shape.triangles(),
         }
     }
 
@@ -77,11 +86,15 @@ impl PatchShape {
         match self {
             Self::Cage(shape) => shape.net(),
             Self::Fill(shape) => shape.net(),
+            Self::Mesh(_) => (&[], &[]),
         }
     }
 
     /// Its topology.
     pub(crate) fn summary(&self) -> SurfaceSummary {
+        if let Self::Mesh(shape) = self {
+            return shape.summary();
+        }
         Mesh::from_triangles(self.positions().len(), self.triangles())
             .map_or_else(|_| SurfaceSummary::default(), |mesh| summarise(&mesh))
     }
@@ -92,6 +105,7 @@ impl PatchShape {
         match self {
             Self::Cage(shape) => shape.revision,
             Self::Fill(shape) => shape.revision,
+            Self::Mesh(shape) => shape.revision,
         }
     }
 
@@ -100,6 +114,7 @@ impl PatchShape {
         match self {
             Self::Cage(shape) => shape.revision = revision,
             Self::Fill(shape) => shape.revision = revision,
+            Self::Mesh(shape) => shape.revision = revision,
         }
     }
 
@@ -110,6 +125,7 @@ impl PatchShape {
             Self::Cage(shape) => shape.bytes(),
             // The tables of its kind are shared with others of it.
             Self::Fill(shape) => 48 * shape.positions().len(),
+            Self::Mesh(shape) => shape.bytes(),
         }
     }
 
@@ -118,7 +134,7 @@ impl PatchShape {
         match self {
             Self::Cage(shape) => shape.is_behind(&model.document),
             // They look at one another: see `fill::follow`.
-            Self::Fill(_) => false,
+            Self::Fill(_) | Self::Mesh(_) => false,
         }
     }
 
@@ -126,7 +142,7 @@ impl PatchShape {
     fn follow(&mut self, model: &Model) {
         match self {
             Self::Cage(shape) => shape.follow(&model.document),
-            Self::Fill(_) => {}
+            Self::Fill(_) | Self::Mesh(_) => {}
         }
     }
 }
@@ -138,6 +154,9 @@ impl PatchShape {
 pub(crate) fn build(model: &Model, id: SurfaceId, revision: u64) -> Result<PatchShape, ModelError> {
     if let Some(fill) = model.document.fills.get(&id) {
         return Ok(PatchShape::Fill(FillShape::new(fill.style, revision)));
+    }
+    if let Some(mesh) = model.document.meshes.get(&id) {
+        return MeshShape::new(id, mesh, revision).map(PatchShape::Mesh);
     }
     let Some(cage) = model.document.cages.get(&id) else { return Err(ModelError::NoSurface(id)) };
     CageShape::new(id, cage, &model.document, revision).map(PatchShape::Cage)

@@ -112,6 +112,7 @@ pub(crate) fn caged<'a>(
     document.cages.get(&surface).ok_or(match document.kind_of(surface) {
         Some(SurfaceKind::Fair) => ModelError::OnlyCages { surface, kind: "a fair surface", act },
         Some(SurfaceKind::Fill) => ModelError::OnlyCages { surface, kind: "a patch that fills a loop", act },
+        Some(SurfaceKind::Mesh) => ModelError::OnlyCages { surface, kind: "a fixed mesh", act },
         Some(SurfaceKind::Cage) | None => ModelError::NoSurface(surface),
     })
 }

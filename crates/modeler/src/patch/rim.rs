@@ -17,12 +17,10 @@ pub(crate) struct PatchRim<'a> {
 
 impl<'a> PatchRim<'a> {
     pub(crate) fn new(patch: &'a PatchShape) -> Self {
-        let sides = |&[a, b, c]: &[u32; 3]| [[a, b, c], [b, c, a], [c, a, b]];
-        let key = |edge: &[u32; 3]| [edge[0].min(edge[1]), edge[0].max(edge[1])];
-        let mut all: Vec<[u32; 3]> = patch.triangles().iter().flat_map(sides).collect();
-        all.sort_by_key(key);
-        let alone = all.chunk_by(|a, b| key(a) == key(b)).filter(|same| same.len() == 1);
-        let edges = alone.map(|same| same[0]).collect();
+        let edges = match patch {
+            PatchShape::Mesh(shape) => shape.rim().to_vec(),
+            _ => edges(patch.triangles()),
+        };
         Self { patch, edges }
     }
 
@@ -36,6 +34,13 @@ impl<'a> PatchRim<'a> {
         let across = along.cross(normal).try_normalize()?;
         let inward = place[inner as usize] - place[a as usize];
         Some(if across.dot(inward) > 0.0 { -across } else { across })
+    }
+
+    /// The unit normal of the surface at the place of its rim nearest to a given one; none without a rim or a tangent plane.
+    pub(super) fn normal(&self, at: DVec3) -> Option<DVec3> {
+        let ([a, b, _], t, _) = self.nearest(at)?;
+        let normals = self.patch.normals();
+        normals[a as usize].lerp(normals[b as usize], t).try_normalize()
     }
 
     /// Whether all these places lie on it, or nearly.
@@ -62,4 +67,14 @@ impl<'a> PatchRim<'a> {
         }
         best
     }
+}
+
+/// The edges that only one triangle has, each with the third corner of that.
+pub(super) fn edges(triangles: &[[u32; 3]]) -> Vec<[u32; 3]> {
+    let sides = |&[a, b, c]: &[u32; 3]| [[a, b, c], [b, c, a], [c, a, b]];
+    let key = |edge: &[u32; 3]| [edge[0].min(edge[1]), edge[0].max(edge[1])];
+    let mut all: Vec<[u32; 3]> = triangles.iter().flat_map(sides).collect();
+    all.sort_by_key(key);
+    let alone = all.chunk_by(|a, b| key(a) == key(b)).filter(|same| same.len() == 1);
+    alone.map(|same| same[0]).collect()
 }

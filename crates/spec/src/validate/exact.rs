@@ -17,7 +17,8 @@ const MAX_ROW: usize = 16;
 impl Document {
     /// Cages and fills: every reference is kept, every number is in range.
     pub(super) fn validate_exact(&self) -> Result<(), Defect> {
-        limit("surfaces", self.surfaces.len() + self.cages.len() + self.fills.len(), MAX_SURFACES)?;
+        let count = self.surfaces.len() + self.cages.len() + self.fills.len() + self.meshes.len();
+        limit("surfaces", count, MAX_SURFACES)?;
         let corners = self.cages.values().flat_map(|cage| &cage.faces).map(Vec::len).sum();
         limit("corners of cages", corners, MAX_TRIANGLES)?;
         for (id, cage) in &self.cages {

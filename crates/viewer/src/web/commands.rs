@@ -4,7 +4,7 @@ use super::page::{Page, act};
 use super::{dom, files};
 use crate::tool::{Selection, Toggle, ToolKey, ToolKind};
 use crate::{Shading, View};
-use ductile_spec::{Edit, Example, PointId, Request};
+use ductile_spec::{Edit, Example, ImportAs, PointId, Request};
 use wasm_bindgen::JsCast;
 use web_sys::{Element, Event, HtmlDialogElement, HtmlElement, KeyboardEvent, MouseEvent};
 
@@ -139,6 +139,8 @@ impl Page {
             "save" => self.save(),
             "export-obj" => self.export(),
             "link" => self.copy_link(),
+            "import-cage" => self.import_otherwise(ImportAs::Cage),
+            "import-mesh" => self.import_otherwise(ImportAs::Mesh),
             "example" => {
                 if let Some(example) = Example::all().find(|e| Some(e.word()) == subject) {
                     self.request(Request::OpenExample(example));

@@ -278,6 +278,7 @@ impl Page {
                 self.chosen_foot = number.map(|number| (surface, number));
             }
             "erase-displacement" => drop(self.erase_chosen()),
+            "bake" => self.request(Request::Edit(Edit::Bake { surface })),
             "drop-displacements" => self.request(Request::Edit(Edit::DropDisplacements { surface })),
             "unpin" => self.blend_otherwise(|blending| blending.pins.clear()),
             _ => return false,
@@ -351,6 +352,7 @@ impl Page {
         dom::show(&dom::element("displaced-item"), self.chosen_item().is_some());
         let has_items = !displaced.items.is_empty();
         dom::show(&dom::element("drop-displacements"), has_items || !displaced.blending.pins.is_empty());
+        dom::show(&dom::element("bake"), has_items);
         dom::show(&dom::element("erase-displacement"), self.chosen_item().is_some());
         dom::show(&dom::element("unpin"), !displaced.blending.pins.is_empty());
         let Blending { profile, combination, blend, .. } = displaced.blending;

@@ -56,11 +56,14 @@ fn open_first(files: Option<FileList>) {
     wasm_bindgen_futures::spawn_local(async move {
         let name = file.name();
         let opened = match ImportFormat::of_name(&name) {
-            Some(format) => bytes_of(&file).await.map(|bytes| Request::Import { format, bytes }),
-            None => read(&file).await.map(|text| Request::OpenText { text }),
+            Some(format) => bytes_of(&file).await.map(|bytes| act(move |page| page.import(format, bytes))),
+            None => {
+                let text = read(&file).await;
+                text.map(|text| act(move |page| page.request(Request::OpenText { text })))
+            }
         };
         match opened {
-            Ok(request) => act(move |page| page.request(request)),
+            Ok(()) => {}
             Err(why) => act(move |page| {
                 let text = format!("“{name}” was not opened: {why}. The model on the screen is as it was.");
                 page.notices.banner("opening", &text, &[]);

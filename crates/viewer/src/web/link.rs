@@ -2,7 +2,7 @@
 
 use super::dom;
 use super::page::{Page, act};
-use ductile_spec::{Document, to_fragment};
+use ductile_spec::{Document, MAX_LINK_BYTES, to_fragment};
 use js_sys::{Function, Promise};
 use wasm_bindgen::{JsCast, JsValue};
 use wasm_bindgen_futures::JsFuture;
@@ -27,6 +27,13 @@ impl Page {
         }
         let link = format!("{}#{}", clean_address(), to_fragment(&self.document));
         let length = link.chars().count();
+        if length > MAX_LINK_BYTES {
+            let text = format!(
+                "A link that holds this model would have {length} characters, and browsers take {MAX_LINK_BYTES} at most: save it as a file."
+            );
+            self.notices.refusal(&text);
+            return;
+        }
         let holds = holds(&self.document);
         // The clipboard wants to be asked in the very event of the designer's act.
         let copying = copy(&link);
@@ -93,11 +100,11 @@ fn holds(document: &Document) -> String {
     let count = |count: usize, one: &str| {
         if count == 1 { format!("1 {one}") } else { format!("{count} {one}s") }
     };
-    let Document { points, curves, surfaces, cages, fills, .. } = document;
+    let Document { points, curves, surfaces, cages, fills, meshes, .. } = document;
     format!(
         "{}, {} and {}",
         count(points.len(), "point"),
         count(curves.len(), "curve"),
-        count(surfaces.len() + cages.len() + fills.len(), "surface")
+        count(surfaces.len() + cages.len() + fills.len() + meshes.len(), "surface")
     )
 }

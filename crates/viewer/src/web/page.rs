@@ -2,6 +2,7 @@
 
 use super::dom;
 use super::gestures::Hand;
+use super::import::Imported;
 use super::journal::Journal;
 use super::legend::{self, Legend};
 use super::notice::Notices;
@@ -52,6 +53,8 @@ pub(crate) struct Page {
     pub(crate) meetings: Meetings,
     /// How far a displacement would reach.
     pub(crate) reaching: Reaching,
+    /// The newest import, while it can be made a surface of the other kind.
+    pub(crate) imported: Option<Imported>,
     /// The displacement that is chosen, by surface and number.
     pub(crate) chosen_foot: Option<(SurfaceId, usize)>,
     pub(crate) schedule: Schedule,
@@ -120,6 +123,7 @@ pub(crate) fn start() {
         rims: Rims::default(),
         meetings: Meetings::default(),
         reaching: Reaching::default(),
+        imported: None,
         chosen_foot: None,
         schedule: Schedule::default(),
         port: Port::default(),

@@ -177,7 +177,13 @@ impl Page {
         let structure = &self.scene.structure;
         for surface in &structure.surfaces {
             let selected = self.selection == Selection::Surface(surface.id);
-            list_entry(&list, "surface", surface.id.0, "", selected);
+            let note = match surface.kind {
+                SurfaceKind::Fair => "",
+                SurfaceKind::Cage => "over a cage",
+                SurfaceKind::Fill => "fill",
+                SurfaceKind::Mesh => "mesh",
+            };
+            list_entry(&list, "surface", surface.id.0, note, selected);
         }
         for curve in &structure.curves {
             let note = if curve.closed { "closed" } else { "open" };
@@ -225,13 +231,16 @@ impl Page {
         };
         let hangs = role.is_some_and(|role| role != PointRole::Free);
         let turns = match self.selection {
-            Selection::Surface(_) if self.fair_surface().is_some() => {
+            Selection::Surface(id)
+                if self.fair_surface().is_some() || self.document.meshes.contains_key(&id) =>
+            {
                 self.summary_shown().is_some_and(|summary| summary.orientable)
             }
             _ => false,
         };
         dom::show(&dom::element("reverse"), turns);
-        dom::show(&dom::element("propagate"), turns && structure.surfaces.len() > 1);
+        let is_fair = self.fair_surface().is_some();
+        dom::show(&dom::element("propagate"), turns && is_fair && structure.surfaces.len() > 1);
         let is_of_cage = match self.selection {
             Selection::Point(id) => self.document.cages_on(id).next().is_some(),
             Selection::Edge { .. } | Selection::Face { .. } => true,

@@ -178,14 +178,20 @@ impl Page {
             return;
         }
         let text = format!("{}: {}", refusal.act, refusal.reason);
+        if refusal.act == "Import" {
+            self.import_refused();
+        }
         self.notices.refusal(&text);
     }
 
     fn committed(&mut self, answered: &Answered, committed: Committed) {
-        if let Ok(document) = from_text(&committed.document) {
-            self.selection = self.selection.still_meant(&self.document, &document);
-            self.document = document;
-        }
+        let before = match from_text(&committed.document) {
+            Ok(document) => {
+                self.selection = self.selection.still_meant(&self.document, &document);
+                std::mem::replace(&mut self.document, document)
+            }
+            Err(_) => self.document.clone(),
+        };
         let act = committed.act.clone();
         let text = committed.document.clone();
         let has_undo = committed.undo.is_some();
@@ -219,6 +225,10 @@ impl Page {
             return;
         }
         self.leave_address();
+        if act == "Import" {
+            self.import_came(&before);
+            return;
+        }
         let undoes = act.starts_with("Undo");
         let button = if undoes { Some(("Redo", "redo")) } else { Some(("Undo", "undo")) };
         self.notices.toast(&act, button.filter(|_| undoes || has_undo));

@@ -7,7 +7,7 @@ use super::dom;
 use super::page::{Page, act};
 use crate::number;
 use crate::tool::Selection;
-use ductile_spec::{CurveId, Edit, Leave, PointId, Request, SurfaceId};
+use ductile_spec::{CurveId, Document, Edit, Leave, PointId, Request, SurfaceId};
 use glam::{DVec2, DVec3, Vec3};
 use web_sys::{Event, HtmlInputElement, HtmlSelectElement};
 
@@ -59,8 +59,8 @@ impl Page {
 
     /// Lists the exact surfaces that the surface could go on from.
     fn show_onto(&self, chosen: Option<SurfaceId>) {
-        let all: Vec<SurfaceId> =
-            self.document.fills.keys().chain(self.document.cages.keys()).copied().collect();
+        let Document { fills, cages, meshes, .. } = &self.document;
+        let all: Vec<SurfaceId> = fills.keys().chain(cages.keys()).chain(meshes.keys()).copied().collect();
         dom::show(&dom::element("ribbon-onto-row"), !all.is_empty());
         let select: HtmlSelectElement = dom::element_as(ONTO);
         let names: String = all.iter().map(|id| format!("{} ", id.0)).collect();

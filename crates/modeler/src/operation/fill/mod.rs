@@ -5,7 +5,7 @@ mod loops;
 
 use crate::error::ModelError;
 use crate::model::Model;
-use crate::patch;
+use crate::patch::{self, PatchRim};
 use crate::relax::Relaxer;
 use ductile_patch::{loops_through, network_faces};
 use ductile_spec::{CurveId, Fill, FillSide, FillStyle, FoundLoop, Hole, PointId, SurfaceId};
@@ -221,7 +221,7 @@ pub(crate) fn forget_lost(model: &mut Model) {
         .fills
         .iter()
         .flat_map(|(id, fill)| fill.sides.iter().enumerate().map(|(at, side)| (*id, at, side)))
-        .filter(|(_, _, side)| side.planes.is_some_and(|beside| !lies_on(model, beside, side.curve)))
+        .filter(|(_, _, side)| side.planes.is_some_and(|beside| !lies_on(model, beside, side)))
         .map(|(id, at, _)| (id, at))
         .collect();
     for (id, at) in lost {
@@ -231,7 +231,11 @@ pub(crate) fn forget_lost(model: &mut Model) {
     }
 }
 
-fn lies_on(model: &Model, surface: SurfaceId, curve: CurveId) -> bool {
+fn lies_on(model: &Model, surface: SurfaceId, side: &FillSide) -> bool {
+    if let Some(mesh) = model.patches.get(&surface).filter(|_| model.document.meshes.contains_key(&surface)) {
+        return patch::fill::places(model, side).is_some_and(|places| PatchRim::new(mesh).is_at(&places));
+    }
+    let curve = side.curve;
     let fair = model.document.surfaces.get(&surface);
     let fill = model.document.fills.get(&surface);
     fair.is_some_and(|surface| surface.skeleton.curves.iter().any(|e| e.curve == curve))

@@ -326,7 +326,7 @@ fn files_become_cages_and_bad_ones_are_refused_with_their_place() {
     let made = files.map(|(format, text)| {
         let mut modeler = with(CageForm::Cube);
         let before = document(&modeler);
-        let done = modeler.handle(Request::Import { format, bytes: text.into() });
+        let done = modeler.handle(Request::Import { format, bytes: text.into(), into: None });
         assert_eq!((done.refused, done.committed.map(|done| done.act).as_deref()), (None, Some("Import")));
         check(&mut modeler, &[before]);
         document(&modeler)
@@ -341,7 +341,7 @@ fn files_become_cages_and_bad_ones_are_refused_with_their_place() {
         (ImportFormat::Obj, b"v 0 0 0\nv 1 0 0\nv 0 2e6 0\nf 1 2 3\n".to_vec(), "point 3"),
         (ImportFormat::Ply, obj.as_bytes().to_vec(), "this is no PLY file"),
     ] {
-        let said = modeler.handle(Request::Import { format, bytes }).refused.unwrap();
+        let said = modeler.handle(Request::Import { format, bytes, into: None }).refused.unwrap();
         assert!(said.act == "Import" && said.reason.contains(says), "{said:?}");
         assert_eq!(document(&modeler), Document::default());
     }

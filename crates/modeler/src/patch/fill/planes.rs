@@ -6,6 +6,7 @@
 
 use super::{Side, shape};
 use crate::model::Model;
+use crate::patch::PatchRim;
 use crate::relax::Relaxer;
 use ductile_patch::s_patch::Domain;
 use ductile_patch::{PlaneSample, RibbonLoop, curve_derivative, plane_of_directions};
@@ -32,6 +33,7 @@ pub(super) fn of(model: &Model, relaxer: Option<&Relaxer>, id: SurfaceId) -> Vec
     for (at, (side, drawn)) in fill.sides.iter().zip(&own.sides).enumerate() {
         let normals = match side.planes {
             Some(beside) if model.surfaces.contains_key(&beside) => of_fair(model, relaxer, beside, drawn),
+            Some(beside) if model.document.meshes.contains_key(&beside) => of_mesh(model, beside, drawn),
             Some(beside) => of_fill(model, beside, drawn),
             None => agreed(model, id, at, drawn),
         };
@@ -61,6 +63,14 @@ fn of_fair(model: &Model, relaxer: Option<&Relaxer>, beside: SurfaceId, side: &S
         Some((side.parameter_of_sample(edge), *normal))
     };
     (0..=side.drawn.edges).filter_map(sample).collect()
+}
+
+/// The normals of a fixed mesh at the samples of a stretch that runs along its rim.
+fn of_mesh(model: &Model, beside: SurfaceId, side: &Side) -> Vec<(f64, DVec3)> {
+    let Some(patch) = model.patches.get(&beside) else { return Vec::new() };
+    let rim = PatchRim::new(patch);
+    let samples = side.drawn.places.iter().step_by(side.drawn.steps).enumerate();
+    samples.filter_map(|(edge, at)| Some((side.parameter_of_sample(edge), rim.normal(*at)?))).collect()
 }
 
 /// The side of a fill that is this stretch, with its number.
