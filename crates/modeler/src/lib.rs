@@ -25,6 +25,7 @@ mod region;
 mod rehydrate;
 mod relax;
 mod seams;
+mod settle;
 mod shadow;
 mod shape;
 mod skeleton;

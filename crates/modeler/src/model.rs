@@ -26,7 +26,23 @@ pub struct Model {
     pub surfaces: BTreeMap<SurfaceId, Arc<SurfaceShape>>,
     /// The exact surfaces as they are now.
     pub patches: BTreeMap<SurfaceId, Arc<PatchShape>>,
+    /// Where the shapes come from.
+    pub(crate) making: Making,
     revisions: u64,
+}
+
+/// Where the shapes of a model come from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Making {
+    /// They were built from the document and are on the way to their rest.
+    #[default]
+    Opened,
+    /// They rest as they do whenever the document is opened: a function of the document alone.
+    Own,
+    /// Acts, or steps with other budgets, brought them where they are.
+    Worked,
+    /// So they are, and what the document opens to is another shape or a worse one.
+    Kept,
 }
 
 impl Model {
@@ -36,7 +52,20 @@ impl Model {
     /// [`ModelError`] when the document cannot be built.
     pub fn from_document(document: Document) -> Result<Self, ModelError> {
         document.validate()?;
-        let mut model = Self { document: Arc::new(document), ..Self::default() };
+        Self::build(Arc::new(document), 0)
+    }
+
+    /// Builds the shapes of the same document anew. Revisions go on from this model's, so that the new shapes can take the
+    /// place of its own.
+    ///
+    /// # Errors
+    /// [`ModelError`] when the document cannot be built.
+    pub(crate) fn reopened(&self) -> Result<Self, ModelError> {
+        Self::build(Arc::clone(&self.document), self.revisions)
+    }
+
+    fn build(document: Arc<Document>, revisions: u64) -> Result<Self, ModelError> {
+        let mut model = Self { document, revisions, ..Self::default() };
         for id in model.document.curves.keys().copied().collect::<Vec<_>>() {
             model.build_curve(id)?;
         }

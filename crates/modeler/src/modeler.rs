@@ -1,6 +1,7 @@
 //! The one door: requests go in, replies come out, the model stays whole.
 
 mod displacing;
+mod settling;
 
 use crate::displaced::{Displacer, Footprints};
 use crate::error::ModelError;
@@ -8,12 +9,13 @@ use crate::example::example;
 use crate::frame::Frame;
 use crate::grab::Grab;
 use crate::history::{History, State};
-use crate::model::Model;
+use crate::model::{Making, Model};
 use crate::operation;
 use crate::patch;
 use crate::pull::Pull;
 use crate::relax::Relaxer;
 use crate::seams;
+use crate::settle::Settling;
 use ductile_mesh::Mesh;
 use ductile_mesh::io::obj;
 use ductile_spec::{
@@ -43,6 +45,9 @@ pub struct Modeler {
     pull: Option<Pull>,
     /// Where feet stood when the drag under way began.
     footprints: Footprints,
+    settling: Settling,
+    /// How often a shape was kept that its document does not open to.
+    kept: u32,
     frame: Frame,
     describe: bool,
 }
@@ -112,7 +117,8 @@ impl Modeler {
         }
         self.relaxer.bind(&self.model);
         patch::follow(&mut self.model, Some(&self.relaxer));
-        let is_at_rest = self.relaxer.is_settled() && !self.is_holding();
+        let settled = self.is_settled();
+        let is_at_rest = settled && !self.is_holding();
         self.displacer.refresh(&self.model, &self.relaxer, is_at_rest);
         let changed = self.frame.write(&self.model, &self.relaxer, &self.displacer);
         if changed || self.describe {
@@ -121,7 +127,7 @@ impl Modeler {
         }
         reply.frame = FrameHeader {
             topology_version: self.frame.structure.version,
-            settled: self.relaxer.is_settled(),
+            settled,
             held: self.grab.as_ref().map(|grab| grab.point),
             figures: self.relaxer.figures(&self.model),
         };
@@ -129,6 +135,7 @@ impl Modeler {
     }
 
     fn serve(&mut self, request: Request) -> Result<Outcome, ModelError> {
+        self.make_way(&request);
         match request {
             Request::OpenText { text } => self.open("Open", from_text(&text)?),
             Request::OpenLink { link } => self.open("Open link", from_fragment(&link)?),
@@ -186,7 +193,7 @@ impl Modeler {
         fresh.renew_revisions();
         let before = core::mem::replace(&mut self.model, fresh);
         self.record(act, before);
-        self.relaxer.wake();
+        self.relaxer = self.relaxer.anew();
         Ok(Outcome { committed: Some(act.to_owned()), ..Outcome::default() })
     }
 
@@ -199,7 +206,7 @@ impl Modeler {
         fresh.renew_revisions();
         self.model = fresh;
         self.history = History::remembered(&resume.undo, &resume.redo);
-        self.relaxer.wake();
+        self.relaxer = self.relaxer.anew();
         Ok(Outcome { committed: Some("Resume".to_owned()), ..Outcome::default() })
     }
 
@@ -229,6 +236,7 @@ impl Modeler {
             Ok(()) => {
                 // What lies over the shapes gives them no reason to move.
                 if !displacing::is_over_shapes(&before.document, &self.model.document) {
+                    self.model.making = Making::Worked;
                     self.relaxer.wake();
                 }
                 self.history.record(name, before);
@@ -256,6 +264,7 @@ impl Modeler {
                 let grabbed = Grabbed { point: grab.point, at };
                 self.grab = Some(grab);
                 self.footprints = self.displacer.footprints();
+                self.model.making = Making::Worked;
                 self.relaxer.wake();
                 Ok(Outcome { grabbed: Some(grabbed), ..Outcome::default() })
             }
@@ -267,6 +276,9 @@ impl Modeler {
     }
 
     fn step(&mut self, step: Step) {
+        if self.settle() {
+            return;
+        }
         if let Some(to) = step.drag {
             self.pull_to(to);
         }
@@ -279,6 +291,7 @@ impl Modeler {
         // What goes on from an exact surface needs it where its controls are now.
         patch::follow(&mut self.model, Some(&self.relaxer));
         self.relaxer.step(&mut self.model, step.iterations);
+        self.note_rest();
         if let Some(grab) = self.grab.as_mut()
             && self.relaxer.is_hand_slow()
             && grab.rescue(&mut self.model, self.relaxer.energy(), false)
@@ -310,6 +323,7 @@ impl Modeler {
                 }
                 self.carry_feet(&footprints)?;
                 self.history.record(act, grab.before);
+                self.model.making = Making::Worked;
                 self.relaxer.wake();
                 Ok(Outcome { committed: Some(act.to_owned()), ..Outcome::default() })
             }
@@ -352,17 +366,17 @@ impl Modeler {
 
     /// Goes to a state of the history, if it can be built. Returns the model that was left.
     fn go_to(&mut self, state: State) -> Result<Model, ModelError> {
-        let model = match state {
-            State::Whole(model) => model,
+        let now = self.model.clone();
+        match state {
+            State::Whole(model) => self.restore(model),
             State::Document(document) => {
                 let mut model = Model::from_document((*document).clone())?;
                 model.continue_revisions(&self.model);
                 model.renew_revisions();
-                model
+                self.model = model;
+                self.relaxer = self.relaxer.anew();
             }
-        };
-        let now = self.model.clone();
-        self.restore(model);
+        }
         Ok(now)
     }
 
@@ -370,6 +384,13 @@ impl Modeler {
         model.continue_revisions(&self.model);
         self.model = model;
         self.relaxer.wake();
+        match self.model.making {
+            // They are as they rested.
+            Making::Own => self.relaxer.rest(&self.model),
+            // The solvers that brought them here have seen other shapes since.
+            Making::Opened => self.model.making = Making::Worked,
+            Making::Worked | Making::Kept => {}
+        }
     }
 
     fn export(&self, format: ExportFormat) -> Result<Outcome, ModelError> {

@@ -6,6 +6,7 @@ use crate::density;
 use crate::maintain::{self, Upkeep};
 use crate::model::Model;
 use crate::network::Networks;
+use crate::settle;
 use crate::shape::{CurveShape, GROWN, SurfaceShape, edit};
 use ductile_solver::Budget;
 use ductile_spec::{CurveId, Figures, SurfaceId};
@@ -54,6 +55,11 @@ pub struct Relaxer {
     /// The curves need no other samples.
     are_curves_quiet: bool,
     steps: u32,
+    /// Steps since the shapes were built from a document: maintenance keeps time with these, so that what comes of a document
+    /// does not depend on what was done before it was opened.
+    phase: u32,
+    /// Whether a step since then had not the budget of a step out of sight, and could have come out otherwise with it.
+    is_stinted: bool,
     steps_since_act: u32,
     rounds: u32,
     fast: u32,
@@ -107,16 +113,55 @@ impl Relaxer {
         self.rescues = self.rescues.saturating_add(1);
     }
 
-    /// Whether nothing will move any more.
+    /// One for shapes that were just built from a document; only the counts go on.
+    pub(crate) fn anew(&self) -> Self {
+        Self { steps: self.steps, rescues: self.rescues, ..Self::default() }
+    }
+
+    /// Goes on with the counts of another one whose place it takes.
+    pub(crate) fn in_place_of(self, other: &Self) -> Self {
+        Self { steps: other.steps, rescues: other.rescues, ..self }
+    }
+
+    /// Counts a step in which the shapes were left to themselves.
+    pub(crate) fn count_step(&mut self) {
+        self.states.values_mut().for_each(|state| state.iterations = 0);
+        self.steps = self.steps.saturating_add(1);
+    }
+
+    /// Whether steps with the budget of those out of sight could have led elsewhere.
+    pub(crate) fn is_stinted(&self) -> bool {
+        self.is_stinted
+    }
+
+    /// Takes it for granted that the shapes rest: they were at rest when they looked like this before.
+    pub(crate) fn rest(&mut self, model: &Model) {
+        self.bind(model);
+        let rest = |bound: &BoundSurface| Relaxation {
+            energy: bound.energy(),
+            at_rest: true,
+            is_quiet: true,
+            ..Relaxation::default()
+        };
+        self.states = self.surfaces.iter().map(|(id, bound)| (*id, rest(bound))).collect();
+        self.curves_at_rest = self.curves.keys().map(|id| (*id, true)).collect();
+        self.are_curves_quiet = true;
+    }
+
+    /// Whether nothing will move any more, or not enough came of it for so long that nothing shall.
     #[must_use]
     pub fn is_settled(&self) -> bool {
+        self.is_at_rest() || self.steps_since_act >= MOST_STEPS
+    }
+
+    /// Whether every shape rests.
+    pub(crate) fn is_at_rest(&self) -> bool {
         let rests = |state: &Relaxation| state.at_rest && state.is_quiet;
-        let all_rest = self.states.len() == self.surfaces.len()
+        self.states.len() == self.surfaces.len()
             && self.states.values().all(rests)
             && (self.are_curves_quiet || self.curves.is_empty())
             && self.curves_at_rest.len() == self.curves.len()
-            && self.curves_at_rest.values().all(|rests| *rests);
-        all_rest || self.steps_since_act >= MOST_STEPS
+            && self.curves_at_rest.values().all(|rests| *rests)
     }
 
     /// Makes sure that there is a solver for each shape as it is now, fitted to it, and none for others.
@@ -174,6 +219,7 @@ impl Relaxer {
         self.fast = if is_fast { SLOW_STEPS } else { self.fast.saturating_sub(1) };
         self.hand = 0.0;
         self.steps = self.steps.saturating_add(1);
+        self.phase = self.phase.wrapping_add(1);
         self.steps_since_act = self.steps_since_act.saturating_add(1);
         let together = self.step_networks(model);
         for id in model.curves.keys().copied().filter(|id| !together.contains(id)).collect::<Vec<_>>() {
@@ -182,7 +228,7 @@ impl Relaxer {
         for id in model.surfaces.keys().copied().collect::<Vec<_>>() {
             self.step_surface(model, id, budget, is_moving);
         }
-        let is_due = self.steps.is_multiple_of(MAINTENANCE_PERIOD) && self.fast == 0;
+        let is_due = self.phase.is_multiple_of(MAINTENANCE_PERIOD) && self.fast == 0;
         // A mesh that still does can wait until the hand rests: a new one costs the frame a new factorisation.
         if is_due && (!is_moving || self.is_worn(model)) {
             self.maintain(model);
@@ -262,10 +308,12 @@ impl Relaxer {
             motion = bound.motion(model, shape);
             if let Ok(report) = bound.solver.step(&mut bound.positions, budget) {
                 self.rescues = self.rescues.saturating_add(u32::from(report.damped));
+                self.is_stinted |= is_stinted(budget, report.sufficient);
             }
         }
         match bound.solver.step(&mut bound.positions, budget) {
             Ok(report) => {
+                self.is_stinted |= is_stinted(budget, report.sufficient);
                 state.energy = report.energy;
                 state.residual =
                     if report.energy > 0.0 { report.predicted_decrease / report.energy } else { 0.0 };
@@ -343,6 +391,11 @@ impl Relaxer {
             step_milliseconds: 0.0,
         }
     }
+}
+
+/// Whether a step out of sight could have come out otherwise than one with this budget, of which so much was needed.
+fn is_stinted(budget: Budget, sufficient: u32) -> bool {
+    budget.iterations != settle::ITERATIONS && sufficient > settle::ITERATIONS.min(budget.iterations)
 }
 
 #[cfg(test)]

@@ -17,6 +17,9 @@ pub struct StepReport {
     pub cg_iterations: u32,
     /// Their relative residual.
     pub residual: f64,
+    /// The least [`Budget::iterations`](crate::Budget) that would have led to the same step; `u32::MAX` if more would have
+    /// led on. Curves need none.
+    pub sufficient: u32,
     /// Halvings of the line search.
     pub halvings: u32,
     /// Accepted scale of the direction; 0 when nothing moved.

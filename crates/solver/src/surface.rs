@@ -250,10 +250,11 @@ impl SurfaceSolver {
             plate: self.assembly.matrix(),
         };
         // The wider equations of curvature variation take about twice the iterations.
-        let (iterations, tolerance) = match &self.goals.network {
-            Some(_) => (budget.iterations.saturating_mul(2), self.settings.variation_tolerance),
-            None => (budget.iterations, self.settings.step_tolerance),
+        let (share, tolerance) = match &self.goals.network {
+            Some(_) => (2, self.settings.variation_tolerance),
+            None => (1, self.settings.step_tolerance),
         };
+        let iterations = budget.iterations.saturating_mul(share);
         let outcome = cg::solve(
             |x, y| matrix.multiply(x, y, &mut self.scratch),
             |r, z| matrix.precondition(&mut self.preconditioner, r, z),
@@ -268,6 +269,7 @@ impl SurfaceSolver {
             energy: self.fits.energy,
             cg_iterations: outcome.iterations,
             residual: outcome.residual,
+            sufficient: sufficient(outcome, (iterations, tolerance), share),
             turning: self.turning(),
             ..StepReport::default()
         };
@@ -471,6 +473,12 @@ fn mass(
 /// Rings of mixed senses need a second preconditioner for scalar fields.
 fn field_preconditioner(rings: &Rings, unknowns: &Unknowns) -> Result<Option<Preconditioner>, FactorError> {
     rings.is_mixed().then(|| Preconditioner::new(rings, unknowns, Acting::OnField)).transpose()
+}
+
+/// The least budget that leads to the same outcome, where `share` iterations are done for each of the budget.
+fn sufficient(outcome: cg::Outcome, (limit, tolerance): (u32, f64), share: u32) -> u32 {
+    let is_cut_short = outcome.iterations >= limit && outcome.residual > tolerance;
+    if is_cut_short { u32::MAX } else { outcome.iterations.div_ceil(share) }
 }
 
 fn unknowns(rings: &Rings, fixed: &[bool]) -> Unknowns {

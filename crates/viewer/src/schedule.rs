@@ -153,7 +153,10 @@ impl Schedule {
             Request::Drop | Request::Cancel => Answered::Release,
             Request::Step(_) => {
                 let told = reply.frame.figures.step_milliseconds;
-                self.adapt(if told > 0.0 { told } else { now - since });
+                // A step without iterations, as when a shape settles, says nothing about what they cost.
+                if reply.frame.figures.iterations > 0 {
+                    self.adapt(if told > 0.0 { told } else { now - since });
+                }
                 Answered::Step
             }
             Request::Meet { .. } => Answered::Meeting,
@@ -275,6 +278,7 @@ mod tests {
         let mut reply = Reply::default();
         reply.frame.settled = settled;
         reply.frame.figures.step_milliseconds = milliseconds;
+        reply.frame.figures.iterations = 1;
         reply
     }
 

@@ -1,0 +1,112 @@
+//! What settling asks of the door: it begins when the shapes have come to rest, goes on with every step that nobody else
+//! needs, and makes way for everything else.
+
+use super::Modeler;
+use crate::model::Making;
+use crate::settle::{Hidden, Settling, Slide};
+use ductile_spec::Request;
+
+impl Modeler {
+    /// How often, since the beginning, a shape that had come to rest was kept although its document opens to another
+    /// one, or to a worse one.
+    #[must_use]
+    pub fn kept(&self) -> u32 {
+        self.kept
+    }
+
+    /// How far settling is.
+    #[cfg(test)]
+    pub(crate) fn settling(&self) -> &Settling {
+        &self.settling
+    }
+
+    /// Whether nothing will move any more, and nothing is left to do out of sight.
+    pub(super) fn is_settled(&self) -> bool {
+        let is_settling = !matches!(self.settling, Settling::Idle);
+        self.relaxer.is_settled() && !is_settling && !self.wants_settling()
+    }
+
+    /// Whether the shapes rest, and perhaps not as their document's own.
+    fn wants_settling(&self) -> bool {
+        let has_shapes = !(self.model.surfaces.is_empty() && self.model.curves.is_empty());
+        let is_worked = self.model.making == Making::Worked;
+        has_shapes && is_worked && !self.is_holding() && self.relaxer.is_settled()
+    }
+
+    /// Acts and drags find a model that is whole: a copy out of sight is dropped, a slide is over at once.
+    pub(super) fn make_way(&mut self, request: &Request) {
+        let only_looks = matches!(
+            request,
+            Request::Step(_)
+                | Request::Describe
+                | Request::Export(_)
+                | Request::Meet { .. }
+                | Request::Reach { .. }
+                | Request::Loop { .. }
+                | Request::Seams
+        );
+        if only_looks {
+            return;
+        }
+        if let Settling::Sliding(slide) = core::mem::take(&mut self.settling) {
+            self.arrive(&slide);
+        }
+    }
+
+    /// Does a part of settling, if it is time for that; then the shapes shown are left to themselves in this step.
+    pub(super) fn settle(&mut self) -> bool {
+        if self.is_holding() {
+            return false;
+        }
+        self.settling = match core::mem::take(&mut self.settling) {
+            Settling::Idle if self.wants_settling() => match Hidden::open(&self.model) {
+                Ok(hidden) => Settling::Hidden(Box::new(hidden)),
+                Err(_) => self.keep(),
+            },
+            Settling::Idle => return false,
+            Settling::Hidden(mut hidden) => {
+                if !hidden.advance() {
+                    Settling::Hidden(hidden)
+                } else if let Some(slide) = hidden.slide_from(&self.model, &self.relaxer) {
+                    let (relaxer, revisions) = hidden.into_parts();
+                    self.model.continue_revisions(&revisions);
+                    self.relaxer = relaxer.in_place_of(&self.relaxer);
+                    slide.show(&mut self.model);
+                    Settling::Sliding(Box::new(slide))
+                } else {
+                    self.keep()
+                }
+            }
+            Settling::Sliding(mut slide) => {
+                if slide.advance() {
+                    self.arrive(&slide);
+                    Settling::Idle
+                } else {
+                    slide.show(&mut self.model);
+                    Settling::Sliding(slide)
+                }
+            }
+        };
+        self.relaxer.count_step();
+        true
+    }
+
+    /// What was built from the document and has come to rest is its own.
+    pub(super) fn note_rest(&mut self) {
+        if self.model.making == Making::Opened && self.relaxer.is_settled() && !self.is_holding() {
+            self.model.making = if self.relaxer.is_stinted() { Making::Worked } else { Making::Own };
+        }
+    }
+
+    fn arrive(&mut self, slide: &Slide) {
+        slide.end(&mut self.model);
+        self.model.making = Making::Own;
+        self.relaxer.rest(&self.model);
+    }
+
+    fn keep(&mut self) -> Settling {
+        self.model.making = Making::Kept;
+        self.kept = self.kept.saturating_add(1);
+        Settling::Idle
+    }
+}
