@@ -39,9 +39,9 @@ pub(crate) enum Making {
     Opened,
     /// They rest as they do whenever the document is opened: a function of the document alone.
     Own,
-    /// Acts, or steps with other budgets, brought them where they are.
+    /// Moved controls, or steps with other budgets, brought them where they are.
     Worked,
-    /// So they are, and what the document opens to is another shape or a worse one.
+    /// Acts made them what they are, or what the document opens to is another shape or a worse one.
     Kept,
 }
 

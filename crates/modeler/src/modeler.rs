@@ -236,7 +236,7 @@ impl Modeler {
             Ok(()) => {
                 // What lies over the shapes gives them no reason to move.
                 if !displacing::is_over_shapes(&before.document, &self.model.document) {
-                    self.model.making = Making::Worked;
+                    self.model.making = settling::worked(&before, &self.model);
                     self.relaxer.wake();
                 }
                 self.history.record(name, before);
@@ -322,8 +322,8 @@ impl Modeler {
                     self.relaxer.count_rescue();
                 }
                 self.carry_feet(&footprints)?;
+                self.model.making = settling::worked(&grab.before, &self.model);
                 self.history.record(act, grab.before);
-                self.model.making = Making::Worked;
                 self.relaxer.wake();
                 Ok(Outcome { committed: Some(act.to_owned()), ..Outcome::default() })
             }

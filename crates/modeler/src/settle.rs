@@ -25,6 +25,9 @@ pub(crate) const ITERATIONS: u32 = 20;
 /// Nobody waits for a frame then, but a press may come at any time.
 const NODES_AT_ONCE: usize = 20_000;
 
+/// Most nodes of a model that settles: while it is open twice, it takes the memory of a model of twice as many.
+pub(crate) const MOST_NODES: usize = 5_000;
+
 /// How far settling is.
 #[derive(Clone, Debug, Default)]
 pub(crate) enum Settling {
@@ -73,7 +76,9 @@ impl Hidden {
 
     /// The way from the shape shown to this one, if it is the same shape and no worse.
     pub(crate) fn slide_from(&self, shown: &Model, relaxer: &Relaxer) -> Option<Slide> {
-        if !self.relaxer.is_at_rest() || !likeness::is_no_worse((&self.model, &self.relaxer), (shown, relaxer)) {
+        if !self.relaxer.is_at_rest()
+            || !likeness::is_no_worse((&self.model, &self.relaxer), (shown, relaxer))
+        {
             return None;
         }
         let slide = Slide::new(shown, &self.model);

@@ -2,9 +2,10 @@
 //! needs, and makes way for everything else.
 
 use super::Modeler;
-use crate::model::Making;
-use crate::settle::{Hidden, Settling, Slide};
-use ductile_spec::Request;
+use crate::density;
+use crate::model::{Making, Model};
+use crate::settle::{Hidden, MOST_NODES, Settling, Slide};
+use ductile_spec::{Document, Request};
 
 impl Modeler {
     /// How often, since the beginning, a shape that had come to rest was kept although its document opens to another
@@ -29,7 +30,7 @@ impl Modeler {
     /// Whether the shapes rest, and perhaps not as their document's own.
     fn wants_settling(&self) -> bool {
         let has_shapes = !(self.model.surfaces.is_empty() && self.model.curves.is_empty());
-        let is_worked = self.model.making == Making::Worked;
+        let is_worked = self.model.making == Making::Worked && self.model.node_count() <= MOST_NODES;
         has_shapes && is_worked && !self.is_holding() && self.relaxer.is_settled()
     }
 
@@ -109,4 +110,15 @@ impl Modeler {
         self.kept = self.kept.saturating_add(1);
         Settling::Idle
     }
+}
+
+/// What an act leaves: shapes that can settle, or such as are kept. An act that moved control points changed nothing that the
+/// document's own shape did not come to rest with before. Other acts change skeletons: what such a one opens to often rests
+/// less well than the mesh on which it was made. So do meshes of several densities, which an opening can only guess.
+pub(super) fn worked(before: &Model, now: &Model) -> Making {
+    let moved = Document { points: now.document.points.clone(), ..(*before.document).clone() };
+    let has_only_moved =
+        moved == *now.document && before.document.points.keys().eq(now.document.points.keys());
+    let can_settle = before.making != Making::Kept && has_only_moved && density::graded(now).is_empty();
+    if can_settle { Making::Worked } else { Making::Kept }
 }

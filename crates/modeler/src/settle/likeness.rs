@@ -35,9 +35,10 @@ pub(super) fn is_near(slide: &Slide, shown: &Model) -> bool {
         way.from.iter().zip(&way.to.nodes).all(|(from, to)| from.distance(*to) <= reach)
     });
     curves
-        && slide.surfaces.iter().all(|(id, way)| {
-            shown.surfaces.get(id).is_some_and(|shown| is_short(way) && covers(way, shown))
-        })
+        && slide
+            .surfaces
+            .iter()
+            .all(|(id, way)| shown.surfaces.get(id).is_some_and(|shown| is_short(way) && covers(way, shown)))
 }
 
 /// Whether no vertex goes far.

@@ -62,7 +62,8 @@ impl Slide {
         let t = f64::from(self.part) / f64::from(PARTS);
         // Begins and ends gently.
         let t = t * t * (3.0 - 2.0 * t);
-        let between = |from: &[DVec3], to: &[DVec3]| from.iter().zip(to).map(|(a, b)| a.lerp(*b, t)).collect();
+        let between =
+            |from: &[DVec3], to: &[DVec3]| from.iter().zip(to).map(|(a, b)| a.lerp(*b, t)).collect();
         for (id, way) in &self.curves {
             let nodes = between(&way.from, &way.to.nodes);
             model.curves.insert(*id, Arc::new(CurveShape { nodes, ..(*way.to).clone() }));

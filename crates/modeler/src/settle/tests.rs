@@ -1,5 +1,6 @@
 use super::*;
 use crate::example::example;
+use crate::model::Making;
 use crate::modeler::Modeler;
 use crate::shape::{SurfaceShape, edit};
 use ductile_spec::{Edit, Example, GrabTarget, PointId, Reply, Request, Step, SurfaceId};
@@ -45,7 +46,11 @@ fn are_same(one: &Model, other: &Model) -> bool {
     let curves = one.curves.iter().map(|(id, c)| (id, &c.nodes));
     let is_same = |a: &SurfaceShape, b: &SurfaceShape| {
         let corners = |shape: &SurfaceShape| -> Vec<_> {
-            shape.mesh.faces().map(|f| shape.mesh.face_vertices(f).map(|v| shape.positions[v.index()])).collect()
+            shape
+                .mesh
+                .faces()
+                .map(|f| shape.mesh.face_vertices(f).map(|v| shape.positions[v.index()]))
+                .collect()
         };
         corners(a) == corners(b)
     };
@@ -189,6 +194,28 @@ fn worse_triangles_are_not_taken() {
     let near = shape.positions[a.index()].lerp(shape.positions[b.index()], 0.9);
     shape.positions[a.index()] = near;
     assert!(hidden.slide_from(&model, &relaxer).is_none());
+}
+
+#[test]
+fn what_acts_made_is_kept_and_undo_of_them_settles_again() {
+    let (mut modeler, point) = led(DVec3::new(0.3, 0.1, 0.1));
+    rest(&mut modeler);
+    assert_eq!(modeler.model().making, Making::Own);
+    let spacing = Some(modeler.model().spacing() * 0.9);
+    let act = Edit::Spacing { of: ductile_spec::SpacingOf::Document, spacing };
+    assert_eq!(modeler.handle(Request::Edit(act)).refused, None);
+    rest(&mut modeler);
+    assert_eq!((modeler.model().making, modeler.kept()), (Making::Kept, 0));
+    let to = modeler.model().document.points[&point] + DVec3::Z * 0.05;
+    assert_eq!(modeler.handle(Request::Edit(Edit::Move { point, to })).refused, None);
+    rest(&mut modeler);
+    assert_eq!(modeler.model().making, Making::Kept);
+    modeler.handle(Request::Undo);
+    modeler.handle(Request::Undo);
+    assert_eq!(modeler.model().making, Making::Own);
+    assert_eq!(modeler.handle(Request::Edit(Edit::Move { point, to })).refused, None);
+    rest(&mut modeler);
+    assert_eq!(modeler.model().making, Making::Own);
 }
 
 #[test]
