@@ -125,6 +125,8 @@ struct SeamReport {
     curvature_jump: f64,
     /// How many of the places have no normal on one side.
     without_normal: usize,
+    /// At how many of the places curvatures were not compared.
+    without_curvature: usize,
 }
 
 /// Places along a seam.
@@ -257,6 +259,16 @@ fn seam_of(sewn: &weld::Sewn, patches: &[Patch]) -> Option<SeamReport> {
     if sewn.is_reversed {
         other.reverse();
     }
-    let Seam { gap, angle, curvature_jump, without_normal, .. } = seam(&one, &other)?;
-    Some(SeamReport { patch, side, other_patch, other_side, gap, angle, curvature_jump, without_normal })
+    let Seam { gap, angle, curvature_jump, without_normal, without_curvature, .. } = seam(&one, &other)?;
+    Some(SeamReport {
+        patch,
+        side,
+        other_patch,
+        other_side,
+        gap,
+        angle,
+        curvature_jump,
+        without_normal,
+        without_curvature,
+    })
 }

@@ -64,6 +64,10 @@ fn seam_line(seam: &SeamFigures) -> String {
         // Writing to a String cannot fail, so the result is dropped.
         let _ = write!(line, ", {} of {} places without a normal", seam.without_normal, seam.places);
     }
+    if seam.without_curvature > seam.without_normal {
+        // As above.
+        let _ = write!(line, ", {} of {} left out of the curvature", seam.without_curvature, seam.places);
+    }
     line + "\n"
 }
 

@@ -83,7 +83,8 @@ fn compared(
     let points = |bank: Bank<'_>| -> Option<Vec<SurfacePoint>> {
         places.iter().map(|(edge, t)| point(model, relaxer, bank, (first, *edge, *t))).collect()
     };
-    let Seam { gap, angle, curvature_jump, without_normal, .. } = seam(&points(one)?, &points(other)?)?;
+    let Seam { gap, angle, curvature_jump, without_normal, without_curvature, .. } =
+        seam(&points(one)?, &points(other)?)?;
     Some(SeamFigures {
         stretch,
         surfaces: [one.surface(), other.surface()],
@@ -92,6 +93,7 @@ fn compared(
         curvature_jump,
         places: u32::try_from(places.len()).unwrap_or(u32::MAX),
         without_normal: u32::try_from(without_normal).unwrap_or(u32::MAX),
+        without_curvature: u32::try_from(without_curvature).unwrap_or(u32::MAX),
     })
 }
 

@@ -32,6 +32,10 @@ pub struct SeamFigures {
     pub places: u32,
     /// At how many of these one of them has no normal, so that neither angle nor curvature could be compared.
     pub without_normal: u32,
+    /// At how many of these curvature was not compared: those without a normal, and those where one of them is squeezed to less than a
+    /// tenth of its mean area along the seam, as beside a corner without a normal.
+    #[serde(default)]
+    pub without_curvature: u32,
 }
 
 /// How well a fill follows its curves and planes.
