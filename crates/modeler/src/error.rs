@@ -4,6 +4,7 @@ use crate::patch::FillError;
 use ductile_mesh::io::{obj::ObjError, ply::PlyError};
 use ductile_mesh::{BridgeError, BuildError, GlueError, IntersectError, PathError};
 use ductile_patch::DisplacementError;
+use ductile_patch::RibbonError;
 use ductile_patch::cage::CageError;
 use ductile_patch::cage::edit::EditError;
 use ductile_solver::SolverError;
@@ -181,6 +182,16 @@ pub enum ModelError {
         surface: SurfaceId,
         /// Which displacement, from 1.
         number: usize,
+    },
+    /// A displacement that moves a curve moves nothing else.
+    #[error("displacement {number} of {surface} moves {curve}: no place can be added to it")]
+    CurveIsFoot {
+        /// Which surface.
+        surface: SurfaceId,
+        /// Which displacement, from 1.
+        number: usize,
+        /// The curve that it moves.
+        curve: CurveId,
     },
     /// A surface has no displacements.
     #[error("{0} has no displacements")]
@@ -511,6 +522,17 @@ fn displaced(reason: &DisplacementError) -> String {
 }
 
 impl ModelError {
+    /// Whether ribbons are to blame that fit at their corners, so that moving twist points would do.
+    pub(crate) fn can_be_mended(&self) -> bool {
+        let Self::Fill {
+            reason: FillError::Ribbons(RibbonError::Incompatible { row, other_row, .. }), ..
+        } = self
+        else {
+            return false;
+        };
+        *row > 0 || *other_row > 0
+    }
+
     /// This error in view of a document: a surface that an act did not find among the fair ones may be of another kind.
     pub(crate) fn of_kind(self, document: &Document, act: &'static str) -> Self {
         let Self::NoSurface(surface) = self else { return self };

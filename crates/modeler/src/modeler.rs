@@ -100,6 +100,7 @@ impl Modeler {
     pub fn handle(&mut self, request: Request) -> Reply {
         let act = label(&request);
         let mut reply = Reply::default();
+        let mended = operation::mended(&request);
         match self.serve(request) {
             Ok(outcome) => {
                 reply.committed = outcome.committed.map(|act| self.committed(act));
@@ -111,8 +112,9 @@ impl Modeler {
                 (reply.found, reply.seams) = (outcome.found, outcome.seams);
             }
             Err(error) => {
-                let reason = error.of_kind(&self.model.document, act).to_string();
-                reply.refused = Some(Refusal { act: act.to_owned(), reason });
+                let error = error.of_kind(&self.model.document, act);
+                let remedy = mended.filter(|_| error.can_be_mended());
+                reply.refused = Some(Refusal { act: act.to_owned(), reason: error.to_string(), remedy });
             }
         }
         self.relaxer.bind(&self.model);

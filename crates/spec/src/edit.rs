@@ -255,6 +255,15 @@ pub enum Edit {
         /// The new one.
         to: Displacement,
     },
+    /// Lets one more place of a surface move with a displacement.
+    AddFoot {
+        /// Which surface.
+        surface: SurfaceId,
+        /// Which of its displacements, from 1.
+        number: usize,
+        /// The place, on the surface as it is shown.
+        at: DVec3,
+    },
     /// Takes a displacement away; those after it get lower numbers.
     EraseDisplacement {
         /// Which surface.
@@ -382,6 +391,7 @@ impl Edit {
             Self::Ribbon { .. } => "Ribbon",
             Self::Displace { .. } => "Displace",
             Self::ChangeDisplacement { .. } => "Change displacement",
+            Self::AddFoot { .. } => "Add foot",
             Self::EraseDisplacement { .. } => "Erase displacement",
             Self::DropDisplacements { .. } => "Drop displacements",
             Self::Blending { .. } => "Blending",

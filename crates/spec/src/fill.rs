@@ -120,6 +120,8 @@ pub enum Hole {
     Sides(Vec<FillSide>),
     /// A hole between ribbons.
     Ribbons(Vec<FillRibbon>),
+    /// The same between ribbons that do not quite fit together: their twist points are moved least, so that they do.
+    CompatibleRibbons(Vec<FillRibbon>),
 }
 
 /// A stretch of a curve, in the sense of the curve: two sides with one stretch are one.

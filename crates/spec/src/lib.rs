@@ -17,6 +17,7 @@ mod fixed_mesh;
 mod frame;
 mod id;
 mod protocol;
+mod ribbon_file;
 mod seams;
 mod share;
 mod surgery;
@@ -51,6 +52,7 @@ pub use protocol::{
     Committed, ExportFormat, Exported, FoundLoop, Grabbed, ImportAs, ImportFormat, Meeting, MeetingLine,
     Pulled, Reach, Refusal, Remembered, Reply, Request, Resume, Step, TRAP,
 };
+pub use ribbon_file::{RibbonFileError, RibbonHole, ribbon_holes};
 pub use seams::{FillFigures, SeamFigures, Seams};
 pub use share::{FRAGMENT_KEY, LinkError, MAX_LINK_BYTES, from_fragment, to_fragment};
 pub use surgery::{Border, Extent, On};

@@ -234,12 +234,15 @@ pub struct Pulled {
 }
 
 /// Why a request was refused. The model is as it was.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Refusal {
     /// What was asked, in the words of the page.
     pub act: String,
     /// Why it cannot be done and what would help.
     pub reason: String,
+    /// An act that does nearly the same and avoids the reason, if there is one.
+    #[serde(default)]
+    pub remedy: Option<Edit>,
 }
 
 /// How far a displacement would reach.

@@ -33,6 +33,10 @@ pub enum Answered {
     Meeting,
     /// How far a displacement would reach.
     Reach,
+    /// The loop through a place of a curve.
+    Loop,
+    /// How well surfaces meet.
+    Seams,
     /// Anything else.
     Other,
 }
@@ -62,6 +66,14 @@ impl Default for Schedule {
             settled: true,
             iterations: FIRST_ITERATIONS,
         }
+    }
+}
+
+impl Answered {
+    /// Whether it answers a question that changed nothing, of which no refusal need be told: the act itself will say why.
+    #[must_use]
+    pub fn is_told(&self) -> bool {
+        matches!(self, Self::Meeting | Self::Reach | Self::Loop | Self::Seams)
     }
 }
 
@@ -161,7 +173,9 @@ impl Schedule {
             }
             Request::Meet { .. } => Answered::Meeting,
             Request::Reach { .. } => Answered::Reach,
-            Request::Export(_) | Request::Loop { .. } | Request::Seams | Request::Describe => Answered::Other,
+            Request::Loop { .. } => Answered::Loop,
+            Request::Seams => Answered::Seams,
+            Request::Export(_) | Request::Describe => Answered::Other,
         })
     }
 

@@ -9,6 +9,7 @@ use glam::Vec3;
 
 mod cage;
 mod drag;
+mod fill;
 mod ghost;
 mod handle;
 mod kind;
@@ -184,9 +185,12 @@ impl Toolbox {
             }
             ToolKind::Curve | ToolKind::Draw => self.path_hint(),
             ToolKind::Displace => {
-                "Drag a surface from inside. Wheel, [ ]: how far around. Shift-click: a place that stays."
+                "Drag a surface from inside. Wheel, [ ]: how far around. Shift-click: a place that stays. Ctrl-click: one that moves along."
             }
             ToolKind::Sheet => "Click a closed curve to skin it.",
+            ToolKind::Fill => {
+                "Click a curve to fill the loop through it. Enter fills all loops of its network."
+            }
             ToolKind::Burnout => "Click a region to burn it out. The curves around it stay.",
             ToolKind::Crease => {
                 "Click a curve in a surface, or a region, to crease it. Click a crease to smooth it."
@@ -211,6 +215,7 @@ impl Toolbox {
                 Ok(boundary) => vec![Act::Edit(Edit::Sheet { boundary })],
                 Err(why) => vec![Act::Say(why)],
             },
+            ToolKind::Fill => fill::click(aim, &self.options),
             ToolKind::Burnout => surgery::burn_out(aim),
             ToolKind::Crease => surgery::crease(aim, around),
             ToolKind::Split => surgery::split(aim, around),
@@ -221,6 +226,12 @@ impl Toolbox {
             ToolKind::Match => self.pick_match(aim.hit, around.structure),
             ToolKind::Cage => cage::click(aim, &self.options, around.size),
         }
+    }
+
+    /// What fills all loops of the network of a curve, or of all curves.
+    #[must_use]
+    pub fn fill_all(&self, curve: Option<CurveId>) -> Edit {
+        fill::all_loops(curve, &self.options)
     }
 
     /// A key.

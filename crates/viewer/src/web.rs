@@ -23,6 +23,8 @@ mod fields;
 #[cfg(target_arch = "wasm32")]
 mod files;
 #[cfg(target_arch = "wasm32")]
+mod fill;
+#[cfg(target_arch = "wasm32")]
 mod gestures;
 #[cfg(target_arch = "wasm32")]
 mod import;
@@ -58,6 +60,8 @@ mod port;
 mod replies;
 #[cfg(target_arch = "wasm32")]
 mod ribbon;
+#[cfg(target_arch = "wasm32")]
+mod seams;
 #[cfg(target_arch = "wasm32")]
 mod settings;
 #[cfg(target_arch = "wasm32")]

@@ -55,7 +55,8 @@ fn answer(scope: &DedicatedWorkerGlobalScope, modeler: &mut Modeler, message: &J
 /// A message that is no request is refused like any other bad input; the model stays.
 fn unreadable(modeler: &mut Modeler, reason: &str) -> Reply {
     let mut reply = modeler.handle(Request::Describe);
-    reply.refused = Some(Refusal { act: "Message".to_owned(), reason: format!("not understood: {reason}") });
+    let (act, reason) = ("Message".to_owned(), format!("not understood: {reason}"));
+    reply.refused = Some(Refusal { act, reason, remedy: None });
     reply
 }
 

@@ -410,6 +410,25 @@ fn a_surface_over_a_cage_is_displaced_and_follows_its_points() {
 }
 
 #[test]
+fn a_place_that_is_added_moves_with_the_foot() {
+    let mut bench = Bench::disc();
+    let [one, other] = places_inside(&bench);
+    let by = DVec3::new(0.05, 0.0, 0.2);
+    bench.edit(displace(one, by));
+    let shown = bench.all();
+    let nearer = |a: &&DVec3, b: &&DVec3| a.distance(other).total_cmp(&b.distance(other));
+    let at = *shown.iter().min_by(nearer).unwrap();
+    bench.edit(Edit::AddFoot { surface: ONE, number: 1, at });
+    let Foot::All(places) = bench.displaced().items[0].foot.clone() else { panic!("several places") };
+    assert_eq!(places.len(), 2);
+    for place in places {
+        assert!(place.z.abs() < 1e-6, "it lies on the disc below: {place}");
+        assert!(distance(&bench.all(), place + by) < 1e-5, "and moves by what is asked: {place}");
+    }
+    assert!(bench.refuse(Edit::AddFoot { surface: ONE, number: 2, at }).contains("no displacement 2"));
+}
+
+#[test]
 fn a_curve_inside_is_a_foot_that_cannot_be_deleted() {
     let mut bench = Bench::disc();
     let [one, other] = places_inside(&bench);

@@ -6,7 +6,8 @@ use crate::error::ModelError;
 use crate::model::Model;
 use crate::operation::kept_position;
 use crate::relax::Relaxer;
-use ductile_spec::{Blending, Displaced, Displacement, SurfaceId};
+use ductile_spec::{Blending, Displaced, Displacement, Foot, SurfaceId};
+use glam::DVec3;
 
 /// Displaces a surface once more.
 pub(super) fn displace(
@@ -28,6 +29,26 @@ pub(super) fn change(
 ) -> Result<(), ModelError> {
     let kept = kept(model, to)?;
     *item(model, id, number)? = kept;
+    agree(model, relaxer, displacer, id)
+}
+
+/// Lets one more place of what is shown move with a displacement.
+pub(super) fn add_foot(
+    (model, relaxer, displacer): (&mut Model, &Relaxer, &mut Displacer),
+    id: SurfaceId,
+    number: usize,
+    at: DVec3,
+) -> Result<(), ModelError> {
+    let shown = kept_position(model, at)?;
+    let below = kept_position(model, displacer.on_base(id, shown))?;
+    let foot = &mut item(model, id, number)?.foot;
+    match foot {
+        Foot::At(first) => *foot = Foot::All(vec![*first, below]),
+        Foot::All(places) => places.push(below),
+        Foot::Along(curve) => {
+            return Err(ModelError::CurveIsFoot { surface: id, number, curve: *curve });
+        }
+    }
     agree(model, relaxer, displacer, id)
 }
 

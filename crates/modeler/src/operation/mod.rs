@@ -54,7 +54,7 @@ use glam::DVec3;
 use std::sync::Arc;
 
 pub(crate) use delete::drop_unused;
-pub(crate) use fill::{forget_lost as forget_lost_planes, found_loop};
+pub(crate) use fill::{forget_lost as forget_lost_planes, found_loop, mended};
 pub(crate) use import::import;
 pub(crate) use insert::insert;
 pub(crate) use pin::pin;
@@ -105,6 +105,7 @@ pub(crate) fn displaces(edit: &Edit) -> bool {
         edit,
         Edit::Displace { .. }
             | Edit::ChangeDisplacement { .. }
+            | Edit::AddFoot { .. }
             | Edit::EraseDisplacement { .. }
             | Edit::DropDisplacements { .. }
             | Edit::Blending { .. }
@@ -121,6 +122,7 @@ fn displacing(
     Some(match edit {
         Edit::Displace { surface, displacement } => displace::displace(all, *surface, displacement),
         Edit::ChangeDisplacement { surface, number, to } => displace::change(all, *surface, *number, to),
+        Edit::AddFoot { surface, number, at } => displace::add_foot(all, *surface, *number, *at),
         Edit::EraseDisplacement { surface, number } => displace::erase(model, *surface, *number),
         Edit::DropDisplacements { surface } => displace::drop_all(model, *surface),
         Edit::Blending { surface, blending } => displace::blend(all, *surface, blending),
@@ -179,6 +181,7 @@ fn act(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result<(), ModelErr
         // Done by `displacing`.
         Edit::Displace { .. }
         | Edit::ChangeDisplacement { .. }
+        | Edit::AddFoot { .. }
         | Edit::EraseDisplacement { .. }
         | Edit::DropDisplacements { .. }
         | Edit::Blending { .. }

@@ -33,6 +33,8 @@ pub enum ToolKind {
     Merge,
     /// Cuts two surfaces where they meet, and joins them there.
     Trim,
+    /// Fills loops of curves with exact patches.
+    Fill,
     /// Places cages and takes hold of their parts.
     Cage,
     /// Pulls the inside of surfaces.
@@ -43,7 +45,7 @@ pub enum ToolKind {
 
 impl ToolKind {
     /// Those of the bar.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::Shape,
         Self::Point,
         Self::Curve,
@@ -56,6 +58,7 @@ impl ToolKind {
         Self::Glue,
         Self::Merge,
         Self::Trim,
+        Self::Fill,
         Self::Cage,
         Self::Displace,
     ];
@@ -76,6 +79,7 @@ impl ToolKind {
             Self::Glue => "glue",
             Self::Merge => "merge",
             Self::Trim => "trim",
+            Self::Fill => "fill",
             Self::Cage => "cage",
             Self::Displace => "displace",
             Self::Match => "match",
@@ -98,6 +102,7 @@ impl ToolKind {
             "g" => Some(Self::Glue),
             "m" => Some(Self::Merge),
             "t" => Some(Self::Trim),
+            "f" => Some(Self::Fill),
             "q" => Some(Self::Cage),
             "e" => Some(Self::Displace),
             _ => None,
@@ -119,7 +124,7 @@ impl ToolKind {
     /// Whether it takes surfaces, or places on them.
     #[must_use]
     pub fn wants_surfaces(self) -> bool {
-        !matches!(self, Self::Sheet | Self::Sweep | Self::Match)
+        !matches!(self, Self::Sheet | Self::Sweep | Self::Match | Self::Fill)
     }
 
     /// Whether it acts on a whole region rather than at a place.

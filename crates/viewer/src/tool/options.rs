@@ -1,7 +1,7 @@
 //! How the tools that make and join things do it: choices that stay from one use to the next.
 
 use super::ToolKind;
-use ductile_spec::CageForm;
+use ductile_spec::{CageForm, FillStyle};
 
 /// The choices.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,6 +22,8 @@ pub struct Options {
     pub size: Option<f64>,
     /// How far a face is extruded, in model units; what suits the face while nobody chose.
     pub distance: Option<f64>,
+    /// Fill: how loops are filled.
+    pub fill: FillStyle,
     /// Displace: how far around, as a displacement says it.
     pub range: f64,
 }
@@ -37,6 +39,7 @@ impl Default for Options {
             form: CageForm::default(),
             size: None,
             distance: None,
+            fill: FillStyle::default(),
             range: 0.0,
         }
     }

@@ -169,6 +169,8 @@ impl Page {
                     self.request(Request::Edit(Edit::Release { point }));
                 }
             }
+            "fill-all" => self.fill_all(),
+            "make-compatible" => self.make_compatible(),
             _ => return self.cage_command(command),
         }
         true

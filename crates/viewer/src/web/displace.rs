@@ -128,6 +128,7 @@ impl Page {
         }
         match (self.foot_at(at), self.thing_at(at)) {
             (Some(foot), _) => self.choose_foot(foot.surface, foot.number),
+            (None, Some(Hit::Surface { id, at, .. })) if modifiers.ctrl => self.add_foot(id, at),
             (None, Some(Hit::Surface { id, at, .. })) if modifiers.shift => self.pin_place(id, at),
             (None, hit) => {
                 self.selection = Selection::of(hit.as_ref());
@@ -136,6 +137,18 @@ impl Page {
         }
         self.refresh();
         true
+    }
+
+    /// Lets a place move with the chosen displacement.
+    fn add_foot(&mut self, surface: SurfaceId, at: Vec3) {
+        match self.chosen_foot {
+            Some((own, number)) if own == surface => {
+                self.request(Request::Edit(Edit::AddFoot { surface, number, at: at.as_dvec3() }));
+            }
+            _ => self
+                .notices
+                .refusal("Click a foot of this surface first; Ctrl-click lets places move with it."),
+        }
     }
 
     /// Pins a place, or frees the pin that holds it.
@@ -256,7 +269,9 @@ impl Page {
     pub(crate) fn refresh_chosen_foot(&mut self) {
         let is_there = self.chosen_foot.is_some_and(|(surface, number)| {
             let count = self.displaced(surface).map_or(0, |displaced| displaced.items.len());
-            self.selection == Selection::Surface(surface) && (number <= count || self.hand.drag.is_some())
+            // One that was just made is in the document when the answer to the end of its drag has come.
+            let is_coming = self.hand.drag.is_some() || !self.schedule.is_at_rest();
+            self.selection == Selection::Surface(surface) && (number <= count || is_coming)
         });
         self.chosen_foot = self.chosen_foot.filter(|_| is_there);
     }

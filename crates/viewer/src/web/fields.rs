@@ -4,6 +4,7 @@ use super::cage;
 use super::density;
 use super::displace;
 use super::dom;
+use super::fill;
 use super::page::{Page, act};
 use super::{extent, legend, normal, options, ribbon, tangent};
 use crate::number;
@@ -36,6 +37,7 @@ pub(crate) fn listen() {
         on_field(id, move |page, text| page.typed_displacement(index, text));
     }
     on_field(displace::RANGE, Page::typed_range);
+    on_field(fill::RESOLUTION, Page::typed_fill_resolution);
     on_field(ribbon::FIELD, Page::typed_ribbon);
     on_field(extent::FIELD, Page::typed_loop_radius);
     on_field(options::FIELD, Page::typed_tube_radius);
@@ -95,7 +97,7 @@ impl Page {
             .chain(density::FIELDS)
             .chain(cage::FIELDS)
             .chain(displace::FIELDS)
-            .chain([ribbon::FIELD, extent::FIELD, options::FIELD, displace::RANGE])
+            .chain([ribbon::FIELD, extent::FIELD, options::FIELD, displace::RANGE, fill::RESOLUTION])
         {
             self.fill_field(&dom::element_as(id), false);
         }
@@ -123,6 +125,7 @@ impl Page {
             }
             (field, _) if legend::FIELDS.contains(&field) => self.legend_text(field),
             (options::FIELD, _) => self.tube_radius_text(),
+            (fill::RESOLUTION, _) => self.fill_resolution_text(),
             (displace::RANGE, _) => number::show(self.tools.options().range),
             (field, _) if displace::FIELDS.contains(&field) => self.displacement_text(field),
             (extent::FIELD, Selection::Curve(_)) => self.loop_radius_text(),

@@ -2,7 +2,7 @@
 
 use super::dom;
 use super::page::{Page, act};
-use ductile_spec::{ExportFormat, ImportFormat, MAX_TEXT_BYTES, Request, to_text};
+use ductile_spec::{ExportFormat, ImportFormat, MAX_TEXT_BYTES, Request, ribbon_holes, to_text};
 use js_sys::{Array, Uint8Array};
 use wasm_bindgen::JsCast;
 use wasm_bindgen::JsValue;
@@ -57,10 +57,7 @@ fn open_first(files: Option<FileList>) {
         let name = file.name();
         let opened = match ImportFormat::of_name(&name) {
             Some(format) => bytes_of(&file).await.map(|bytes| act(move |page| page.import(format, bytes))),
-            None => {
-                let text = read(&file).await;
-                text.map(|text| act(move |page| page.request(Request::OpenText { text })))
-            }
+            None => read(&file).await.map(|text| act(move |page| page.open_text(text))),
         };
         match opened {
             Ok(()) => {}
@@ -97,6 +94,19 @@ pub(crate) fn as_float(bytes: usize) -> f64 {
 }
 
 impl Page {
+    /// Opens a document, or fills with the ribbons that the text has instead.
+    fn open_text(&mut self, text: String) {
+        match ribbon_holes(&text) {
+            None => self.request(Request::OpenText { text }),
+            Some(Ok(holes)) => self.fill_ribbons(holes),
+            Some(Err(why)) => {
+                let text =
+                    format!("The ribbons were not opened: {why}. The model on the screen is as it was.");
+                self.notices.banner("opening", &text, &[]);
+            }
+        }
+    }
+
     /// Saves the document as a file; the worker is not needed for it.
     pub(crate) fn save(&mut self) {
         if self.committed.is_none() {

@@ -391,6 +391,7 @@ impl Page {
             self.hand.hover_rim = self.rim_at(at);
         }
         self.ask_meeting();
+        self.ask_loop();
         self.ask_reach();
     }
 }

@@ -19,9 +19,10 @@ impl Page {
     /// Shows the choices of the tool in hand.
     pub(crate) fn show_options(&self) {
         let kind = self.tools.kind();
-        let mut any = matches!(kind, ToolKind::Merge | ToolKind::Displace);
+        let mut any = matches!(kind, ToolKind::Merge | ToolKind::Displace | ToolKind::Fill);
         dom::show(&dom::element("tube"), kind == ToolKind::Merge);
         dom::show(&dom::element("reach"), kind == ToolKind::Displace);
+        self.show_fill_option();
         any |= self.show_cage_option();
         for toggle in Toggle::ALL {
             let button = dom::element(&format!("option-{}", toggle.word()));

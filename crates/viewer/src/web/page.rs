@@ -11,15 +11,15 @@ use super::port::Port;
 use super::settings::Settings;
 use super::stage::Stage;
 use super::{
-    cage, canvas, commands, density, displace, fields, files, inspect, keyboard, link, objectives, opening,
-    ribbon, stage,
+    cage, canvas, commands, density, displace, fields, files, fill, inspect, keyboard, link, objectives,
+    opening, ribbon, seams, stage,
 };
 use crate::limit::Limit;
 use crate::memory::Memory;
 use crate::schedule::Schedule;
 use crate::tool::{Selection, Toolbox};
-use crate::{Camera, Meetings, Reaching, Rims, Scene};
-use ductile_spec::{Committed, Document, Request, SurfaceId};
+use crate::{Camera, Looping, Meetings, Reaching, Reporting, Rims, Scene};
+use ductile_spec::{Committed, Document, Edit, Request, SurfaceId};
 use glam::Vec3;
 use std::cell::RefCell;
 use std::collections::VecDeque;
@@ -55,6 +55,16 @@ pub(crate) struct Page {
     pub(crate) reaching: Reaching,
     /// The newest import, while it can be made a surface of the other kind.
     pub(crate) imported: Option<Imported>,
+    /// The loop that a fill would take.
+    pub(crate) looping: Looping,
+    /// How well surfaces meet.
+    pub(crate) reporting: Reporting,
+    /// The seam of the report that is pointed at.
+    pub(crate) seam_over: Option<usize>,
+    /// What would do nearly what was refused.
+    pub(crate) remedies: Vec<Edit>,
+    /// What the list of seams was made from.
+    pub(crate) seams_shown: String,
     /// The displacement that is chosen, by surface and number.
     pub(crate) chosen_foot: Option<(SurfaceId, usize)>,
     pub(crate) schedule: Schedule,
@@ -124,6 +134,11 @@ pub(crate) fn start() {
         meetings: Meetings::default(),
         reaching: Reaching::default(),
         imported: None,
+        looping: Looping::default(),
+        reporting: Reporting::default(),
+        seam_over: None,
+        remedies: Vec::new(),
+        seams_shown: String::new(),
         chosen_foot: None,
         schedule: Schedule::default(),
         port: Port::default(),
@@ -147,20 +162,7 @@ pub(crate) fn start() {
         describing: false,
     };
     PAGE.with_borrow_mut(|slot| *slot = Some(page));
-    commands::listen();
-    keyboard::listen();
-    canvas::listen();
-    fields::listen();
-    objectives::listen();
-    density::listen();
-    cage::listen();
-    displace::listen();
-    legend::listen();
-    ribbon::listen();
-    files::listen();
-    link::listen();
-    stage::listen();
-    inspect::expose();
+    listen();
     act(|page| {
         page.apply_settings();
         page.refresh();
@@ -169,6 +171,26 @@ pub(crate) fn start() {
     });
     opening::begin();
     watch();
+}
+
+/// Listens to everything that the designer can do, and lets others look in.
+fn listen() {
+    commands::listen();
+    keyboard::listen();
+    canvas::listen();
+    fields::listen();
+    objectives::listen();
+    density::listen();
+    cage::listen();
+    displace::listen();
+    fill::listen();
+    seams::listen();
+    legend::listen();
+    ribbon::listen();
+    files::listen();
+    link::listen();
+    stage::listen();
+    inspect::expose();
 }
 
 /// Looks after the worker: one that hangs is replaced. Time in the background does not count.

@@ -122,7 +122,7 @@ impl Page {
 
     fn show_hint(&self) {
         let hint = match &self.hand.drag {
-            None => self.tools.hint(),
+            None => self.why_no_loop().unwrap_or_else(|| self.tools.hint()),
             Some(drag) if drag.lock().is_some() => {
                 "Along the axis. The same key frees it again, Esc puts everything back."
             }
@@ -262,6 +262,8 @@ impl Page {
         self.show_objectives();
         self.show_density();
         self.show_displacements();
+        self.show_fill();
+        self.show_seams();
     }
 
     fn facts(&self, role: Option<PointRole>) -> Vec<(&'static str, String)> {

@@ -27,6 +27,9 @@ impl Page {
         let lost = self.schedule.worker_died(resume);
         self.hand.forget();
         self.meetings.forget();
+        self.reaching.forget();
+        self.looping.forget();
+        self.reporting.forget();
         self.describing = false;
         if nothing_yet && self.schedule.is_at_rest() {
             self.schedule.push(Request::OpenExample(Example::RaisedDisc));
@@ -61,14 +64,17 @@ impl Page {
     pub(crate) fn answered(&mut self, answer: Answer) {
         let Answer { reply, floats, indices } = answer;
         let Some(answered) = self.schedule.answered(&reply, dom::now()) else { return };
-        if answered == Answered::Meeting {
-            // Not to be told is no refusal of anything yet: the act itself will say why.
-            self.meetings.came(reply.meeting);
-        } else if answered == Answered::Reach {
-            self.reaching.came(reply.reach);
-        } else {
-            self.meetings.moved();
-            self.reaching.moved();
+        match answered {
+            Answered::Meeting => self.meetings.came(reply.meeting),
+            Answered::Reach => self.reaching.came(reply.reach),
+            Answered::Loop => self.looping.came(reply.found),
+            Answered::Seams => self.reporting.came(reply.seams),
+            _ => {
+                self.meetings.moved();
+                self.reaching.moved();
+                self.looping.moved();
+                self.reporting.moved();
+            }
         }
         let frame = reply.frame.clone();
         let was_settled = self.scene.header.settled;
@@ -88,9 +94,8 @@ impl Page {
         if let Some(pulled) = reply.pulled {
             self.pulled(pulled);
         }
-        if let Some(refusal) =
-            reply.refused.filter(|_| !matches!(answered, Answered::Meeting | Answered::Reach))
-        {
+        // Not to be told is no refusal of anything yet.
+        if let Some(refusal) = reply.refused.filter(|_| !answered.is_told()) {
             self.refused(&answered, &refusal);
         }
         if let Some(committed) = reply.committed {
@@ -181,7 +186,10 @@ impl Page {
         if refusal.act == "Import" {
             self.import_refused();
         }
-        self.notices.refusal(&text);
+        match &refusal.remedy {
+            Some(remedy) => self.offer_remedy(&text, remedy.clone()),
+            None => self.notices.refusal(&text),
+        }
     }
 
     fn committed(&mut self, answered: &Answered, committed: Committed) {

@@ -298,7 +298,9 @@ impl Page {
             ToolKind::Glue => self.mark_rims(&mut mark),
             ToolKind::Merge | ToolKind::Trim => self.mark_places(&mut mark),
             ToolKind::Displace => self.mark_displacements(&mut mark),
+            ToolKind::Fill => self.mark_loop(&mut mark),
         }
+        self.mark_seam(&mut mark);
         mark
     }
 

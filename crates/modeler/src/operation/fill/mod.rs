@@ -7,8 +7,10 @@ use crate::error::ModelError;
 use crate::model::Model;
 use crate::patch::{self, PatchRim};
 use crate::relax::Relaxer;
-use ductile_patch::{loops_through, network_faces};
-use ductile_spec::{CurveId, Fill, FillSide, FillStyle, FoundLoop, Hole, PointId, SurfaceId};
+use ductile_patch::{Ribbon, loops_through, made_compatible, network_faces};
+use ductile_spec::{
+    CurveId, Edit, Fill, FillRibbon, FillSide, FillStyle, FoundLoop, Hole, PointId, Request, SurfaceId,
+};
 use glam::DVec3;
 use loops::{Curves, Neighbours, reversed};
 use std::collections::BTreeSet;
@@ -27,6 +29,7 @@ pub(super) fn fill(
     let mut fill = Fill { style, ..Fill::default() };
     match hole {
         Hole::Ribbons(ribbons) => fill.ribbons.clone_from(ribbons),
+        Hole::CompatibleRibbons(ribbons) => fill.ribbons = compatible(model, ribbons)?,
         Hole::Sides(sides) => fill.sides.clone_from(sides),
         Hole::Corners { curve, points } => {
             fill.sides = with_planes(model, &neighbours, between_corners(model, *curve, points)?);
@@ -39,6 +42,28 @@ pub(super) fn fill(
     let id = add(model, fill)?;
     patch::follow(model, Some(relaxer));
     model.check_fill(id)
+}
+
+/// Ribbons with their twist points moved least, so that they fit together.
+fn compatible(model: &Model, ribbons: &[FillRibbon]) -> Result<Vec<FillRibbon>, ModelError> {
+    let asked: Vec<Ribbon> =
+        ribbons.iter().map(|r| Ribbon { row0: r.row0.clone(), row1: r.row1.clone() }).collect();
+    let surface = model.document.next_surface();
+    let adjusted =
+        made_compatible(&asked).map_err(|reason| ModelError::Fill { surface, reason: reason.into() })?;
+    let ring = adjusted.ribbons;
+    let kept = |ribbon: &Ribbon| FillRibbon { row0: ribbon.row0.clone(), row1: ribbon.row1.clone() };
+    Ok(ring.ribbons().iter().map(kept).collect())
+}
+
+/// The act that fills with ribbons made compatible, in place of one that does not.
+pub(crate) fn mended(request: &Request) -> Option<Edit> {
+    match request {
+        Request::Edit(Edit::Fill { hole: Hole::Ribbons(ribbons), style }) => {
+            Some(Edit::Fill { hole: Hole::CompatibleRibbons(ribbons.clone()), style: *style })
+        }
+        _ => None,
+    }
 }
 
 /// Fills all loops of the curves that hang together with one, or of all curves, as far as they can be filled.

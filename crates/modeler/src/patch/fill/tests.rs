@@ -248,6 +248,18 @@ fn ribbons_of_a_document_are_filled_and_bad_ones_are_refused() {
     let act = Edit::Fill { hole: Hole::Ribbons(ribbons.clone()), style: FillStyle::default() };
     let refused = modeler.handle(Request::Edit(act)).refused.unwrap();
     assert!(refused.reason.contains("side 1: point 1 of row 1"), "{refused:?}");
+    // What is offered instead moves the twist points half way and the curves not at all.
+    let mut mended = Modeler::new();
+    edit(&mut mended, refused.remedy.unwrap());
+    let made = mended.model().document.fills[&SurfaceId(1)].ribbons.clone();
+    let before = ring.ribbons();
+    assert!((0..4).all(|k| made[k].row0 == before[k].row0));
+    assert!((made[1].row1[1].z - before[1].row1[1].z - 0.25).abs() < 1e-12);
+    let mut apart = ribbons.clone();
+    apart[2].row0[0].x += 0.5;
+    let act = Edit::Fill { hole: Hole::Ribbons(apart), style: FillStyle::default() };
+    let refused = modeler.handle(Request::Edit(act)).refused.unwrap();
+    assert_eq!(refused.remedy, None, "corners that lie apart bound no hole: {}", refused.reason);
     let mut document = Document::default();
     document.fills.insert(SurfaceId(3), Fill { ribbons, ..Fill::default() });
     let text = ductile_spec::to_text(&document);

@@ -1,0 +1,123 @@
+// Fills by real pointer events: the loop under the pointer, one loop, all loops, what is chosen of them, ribbons of a file, seams.
+
+import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
+import { test } from "node:test";
+import { atRest, documentOf, drawn, pointAway, withDocument } from "./support/model.mjs";
+import { inspect, until, untilInspect } from "./support/page.mjs";
+import { pentagon, twoLoops } from "./support/loops.mjs";
+
+const textOf = (page, id) => page.evaluate((id) => document.getElementById(id).textContent, id);
+
+/** The middle of a curve in the picture. */
+function middle(state, id) {
+  const { screen } = state.curves.find((curve) => curve.id === id);
+  return screen[Math.floor(screen.length / 2)];
+}
+
+test("a loop is shown under the pointer and filled by a click; how it is filled can be chosen before and after", async () => {
+  await withDocument(pentagon(), async (page, opened) => {
+    await page.keyboard.press("f");
+    await untilInspect(page, ({ tool }) => tool === "fill");
+    await page.mouse.move(...middle(opened, 1));
+    const over = await untilInspect(page, ({ hover, marked }) => hover === "curve 1" && marked.lines >= 5);
+    assert.equal(over.document, opened.document, "pointing changes nothing");
+    await page.locator("#new-fill-degree").selectOption({ label: "4" });
+    await page.mouse.click(...middle(opened, 1));
+    const filled = await atRest(page, ({ act }) => act === "Fill");
+    const { fills } = await documentOf(page);
+    assert.deepEqual(Object.keys(fills), ["1"]);
+    assert.deepEqual(fills[1].sides.map(({ curve }) => curve).sort(), [1, 2, 3, 4, 5]);
+    assert.equal(fills[1].style.degree, 4);
+    assert.deepEqual(filled.surfaces.map(({ kind }) => kind), ["Fill"]);
+    await drawn(page);
+
+    // The same loop is filled already: the hint says so before a click, and a click changes nothing.
+    await page.mouse.move(...middle(opened, 5));
+    await untilInspect(page, ({ hover }) => hover === "curve 5");
+    await until(page, () => /curve 5 lies on no loop/.test(document.getElementById("hint").textContent), undefined, { timeout: 5000 });
+    await page.mouse.click(...middle(opened, 5));
+    const refused = await untilInspect(page, ({ toast }) => toast?.startsWith("Fill: curve 5"));
+    assert.equal(refused.document, filled.document);
+    await page.keyboard.press("Escape");
+    await untilInspect(page, ({ tool }) => tool === "shape");
+
+    // Its properties: the sides, the figures, another style.
+    await page.locator('#scene-list [data-subject="surface 1"]').click();
+    await until(page, () => /5 sides of degree 4/.test(document.getElementById("fill-figures").textContent));
+    assert.match(await textOf(page, "fill-sides"), /Side 1 · curve \dfair planes/);
+    await page.locator("#fill-join").selectOption({ label: "Positions" });
+    await atRest(page, ({ act }) => act === "Refill");
+    assert.equal((await documentOf(page)).fills[1].style.join, "position");
+    await page.locator("#fill-interior").selectOption({ label: "Harmonic" });
+    await atRest(page, (state) => JSON.parse(state.document).fills[1].style.interior === "harmonic");
+    await page.locator("#fill-resolution").fill("65");
+    await page.locator("#fill-resolution").press("Enter");
+    await until(page, () => /from 1 to 64/.test(document.getElementById("number-error").textContent));
+    await page.locator("#fill-resolution").fill("8");
+    await page.locator("#fill-resolution").press("Enter");
+    await atRest(page, (state) => JSON.parse(state.document).fills[1].style.resolution === 8);
+    for (let acts = 4; acts > 0; acts -= 1) {
+      const { document } = await inspect(page);
+      await page.locator("#undo").click();
+      await atRest(page, (state) => state.document !== document);
+    }
+    assert.equal((await inspect(page)).document, opened.document, "all of it is taken back");
+  });
+});
+
+test("all loops of a network are filled at once, and the report tells how they meet", async () => {
+  await withDocument(twoLoops(), async (page, opened) => {
+    await page.keyboard.press("f");
+    await page.mouse.move(...middle(opened, 1));
+    await untilInspect(page, ({ hover }) => hover === "curve 1");
+    await page.keyboard.press("Enter");
+    const filled = await atRest(page, ({ act }) => act === "Fill all");
+    assert.equal(filled.surfaces.length, 2);
+    await page.locator("#seams summary").click();
+    await until(page, () => document.querySelectorAll("#seam-list li").length === 1);
+    const told = await textOf(page, "seam-list");
+    const [, gap, angle] = /Surfaces 1 and 2 · curve \d.*gap (\S+) · (\S+)°/.exec(told) ?? assert.fail(told);
+    assert.ok(Number(gap) < 1e-6, `they have the same boundary: ${told}`);
+    assert.ok(Number(angle) < 1, `and nearly the same planes: ${told}`);
+    await page.locator("#seam-list button").hover();
+    await untilInspect(page, ({ marked }) => marked.lines === 1);
+    await pointAway(page);
+    await untilInspect(page, ({ marked }) => marked.lines === 0);
+
+    // The button does the same for all curves; now there is nothing left to fill.
+    await page.locator("#fill-all").click();
+    const refused = await untilInspect(page, ({ toast }) => toast?.startsWith("Fill all:"));
+    assert.match(refused.toast, /no loop of curves left/);
+    assert.equal(refused.document, filled.document);
+  });
+});
+
+test("a file of ribbons is filled; ribbons that do not fit are refused by side and point, and one click makes them fit", async () => {
+  const fixture = JSON.parse(await readFile(new URL("../fixtures/s-patch-5-sided-cubic.json", import.meta.url), "utf8"));
+  const file = (name, value) => ({ name, mimeType: "application/json", buffer: Buffer.from(JSON.stringify(value)) });
+  await withDocument(pentagon(), async (page, opened) => {
+    await page.locator("#file").setInputFiles(file("ribbons.json", fixture));
+    const filled = await atRest(page, ({ act }) => act === "Fill");
+    const given = (await documentOf(page)).fills[1].ribbons;
+    assert.deepEqual(given.map(({ row0 }) => row0), fixture.ribbons.map(({ row0 }) => row0));
+    await page.locator("#undo").click();
+    await atRest(page, ({ document }) => document === opened.document);
+
+    const twisted = structuredClone(fixture);
+    twisted.ribbons[1].row1[1][2] += 0.4;
+    await page.locator("#file").setInputFiles(file("twisted.json", twisted));
+    const refused = await untilInspect(page, ({ banners }) => banners.some((text) => /side 1: point 1 of row 1/.test(text)));
+    assert.equal(refused.document, opened.document, "the model is as it was");
+    await page.locator('[data-command="make-compatible"]').click();
+    const made = await atRest(page, (state) => state.act === "Fill" && state.document !== filled.document);
+    const moved = JSON.parse(made.document).fills[1].ribbons[1].row1[1][2] - fixture.ribbons[1].row1[1][2];
+    assert.ok(Math.abs(moved - 0.2) < 1e-9, `the twist point goes half way: ${moved}`);
+    assert.deepEqual(made.banners, []);
+
+    await page.locator("#file").setInputFiles(file("bad.json", { ribbons: [{ row0: [[0, 0]] }] }));
+    const bad = await untilInspect(page, ({ banners }) => banners.length > 0);
+    assert.match(bad.banners[0], /The ribbons were not opened: the ribbons of patch 0/);
+    assert.equal(bad.document, made.document);
+  });
+});
