@@ -109,8 +109,9 @@ impl BoundSurface {
         };
         // Only the membrane looks at the radius, which changes with every drag.
         let radius = if asks(Objective::Membrane) { model.document.extent().1 } else { 0.0 };
-        let of_region = |region: &Region| Region { objective: region.objective.map(now), ..*region };
-        let regions = regions.iter().map(of_region).collect();
+        let of_region =
+            |region: &Region| Region { objective: region.objective.map(now), shadow: None, ..*region };
+        let regions = regions.iter().map(of_region).filter(|region| !region.is_idle()).collect();
         let choice = Choice { of_surface: now(of_surface), regions, radius };
         if choice == self.choice {
             return false;

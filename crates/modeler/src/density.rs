@@ -6,6 +6,7 @@
 //! when they must change by much, so that a mesh at rest is left alone.
 
 mod bend;
+mod relief;
 mod skeleton;
 
 pub(crate) use skeleton::of_stretches;
@@ -31,7 +32,7 @@ pub(crate) fn graded(model: &Model) -> BTreeSet<SurfaceId> {
     let document = &model.document;
     let says_so = |id: SurfaceId, surface: &Surface| {
         document.density_of_surface(id) == Density::Curvature
-            || surface.regions.iter().any(|region| region.spacing.is_some())
+            || surface.regions.iter().any(|region| region.spacing.is_some() || region.shadow.is_some())
     };
     let all = document.surfaces.iter();
     let mut graded: BTreeSet<_> =
@@ -64,6 +65,7 @@ pub(crate) fn update(model: &mut Model, bound: &BTreeMap<SurfaceId, BoundSurface
     for id in &graded {
         if let (Some(shape), Some(surface)) = (model.surfaces.get(id), model.document.surfaces.get(id)) {
             let mut field = own(shape, surface, 1.0);
+            relief::shorten(&mut field, model, shape, surface);
             let bound = bound.get(id).filter(|bound| bound.revision == shape.revision);
             if let (Density::Curvature, Some(bound)) = (model.document.density_of_surface(*id), bound) {
                 bend::shorten(&mut field, bound);

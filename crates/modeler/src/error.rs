@@ -7,6 +7,7 @@ use ductile_patch::DisplacementError;
 use ductile_patch::RibbonError;
 use ductile_patch::cage::CageError;
 use ductile_patch::cage::edit::EditError;
+use ductile_patch::relief::ReliefError;
 use ductile_solver::SolverError;
 use ductile_spec::{CurveId, Defect, Document, LinkError, PointId, SurfaceId, SurfaceKind, TextError};
 use thiserror::Error;
@@ -210,6 +211,22 @@ pub enum ModelError {
     /// The surface has no triangles at the moment.
     #[error("{0} shows nothing that could be baked")]
     NothingShown(SurfaceId),
+    /// A region cannot shadow a surface.
+    #[error("{surface} cannot shadow {of}: {reason}")]
+    Shadow {
+        /// Whose region it is.
+        surface: SurfaceId,
+        /// The stamp.
+        of: SurfaceId,
+        /// Why not.
+        reason: ShadowError,
+    },
+    /// There is no shadow that could be taken away.
+    #[error("this region of {0} shadows nothing")]
+    NotShadowing(SurfaceId),
+    /// No curve bounds the region, so that it has no name and no anchor.
+    #[error("no control curve bounds this region of {0}: draw one around it first")]
+    NoBorder(SurfaceId),
     /// The surface is no exact one.
     #[error("{0} is no surface over a cage, no fill and no mesh")]
     NoPatch(SurfaceId),
@@ -519,6 +536,20 @@ fn displaced(reason: &DisplacementError) -> String {
         other => return other.to_string(),
     };
     why.to_owned()
+}
+
+/// Why a region cannot shadow a surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum ShadowError {
+    /// The region is no disc.
+    #[error("the region does not suit, {0}")]
+    Region(ReliefError),
+    /// The stamp is no disc.
+    #[error("the stamp does not suit, {0}")]
+    Stamp(ReliefError),
+    /// There is nothing to be seen of one of them at the moment.
+    #[error("one of them has no shape at the moment")]
+    Lost,
 }
 
 impl ModelError {

@@ -38,8 +38,8 @@ impl Frame {
         }
         self.floats.clear();
         for (id, shape) in &model.surfaces {
-            if let Some(overlay) = displacer.get(*id) {
-                self.write_vertices(overlay.positions(), overlay.normals());
+            if let Some((positions, normals)) = displacer.vertices(*id) {
+                self.write_vertices(positions, normals);
                 continue;
             }
             let Some(bound) = relaxer.surface(*id, shape) else { continue };
@@ -49,8 +49,8 @@ impl Frame {
             }
         }
         for (id, shape) in &model.patches {
-            match displacer.get(*id) {
-                Some(overlay) => self.write_vertices(overlay.positions(), overlay.normals()),
+            match displacer.vertices(*id) {
+                Some((positions, normals)) => self.write_vertices(positions, normals),
                 None => self.write_vertices(shape.positions(), shape.normals()),
             }
         }
@@ -193,8 +193,10 @@ fn divide(structure: &mut Structure, id: SurfaceId, shape: &SurfaceShape, model:
     let regions = model.document.surfaces.get(&id).map_or(&[][..], |surface| &surface.regions);
     let objectives = region::own(shape, &labels, regions, |region| region.objective);
     let spacings = region::own(shape, &labels, regions, |region| region.spacing);
-    let own = objectives.into_iter().zip(spacings);
-    structure.regions.extend(own.map(|(objective, spacing)| RegionEntry { surface: id, objective, spacing }));
+    let shadows = region::own(shape, &labels, regions, |region| region.shadow);
+    let own = objectives.into_iter().zip(spacings).zip(shadows);
+    let entry = |((objective, spacing), shadow)| RegionEntry { surface: id, objective, spacing, shadow };
+    structure.regions.extend(own.map(entry));
     let name = |f| u16::try_from(first + labels.of(f)).unwrap_or(NO_REGION);
     structure.region_of_triangle.extend(shape.mesh.faces().map(name));
 }
@@ -213,7 +215,10 @@ fn key(model: &Model) -> Vec<(u32, u64)> {
     let chosen = model.document.surfaces.values().flat_map(|s| &s.regions).flat_map(|r| {
         let objective = r.objective.map_or(0, |objective| objective as u64 + 1);
         let name = (r.from.0, (u64::from(r.curve.0) << 8) | r.side as u64 | (objective << 1));
-        [name, (0, r.spacing.map_or(0, f64::to_bits))]
+        let shadow = r.shadow.map_or([(0, 0); 2], |shadow| {
+            [(shadow.of.0, shadow.strength.to_bits()), (1, shadow.turn.to_bits())]
+        });
+        [name, (0, r.spacing.map_or(0, f64::to_bits)), shadow[0], shadow[1]]
     });
     let mark = [(u32::MAX, u64::MAX)];
     surfaces

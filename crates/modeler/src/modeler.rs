@@ -404,15 +404,15 @@ impl Modeler {
         for (id, shape) in &self.model.surfaces {
             let Some(bound) = self.relaxer.surface(*id, shape) else { continue };
             let first = u32::try_from(positions.len()).unwrap_or(u32::MAX);
-            if let Some(overlay) = self.displacer.get(*id) {
-                positions.extend_from_slice(overlay.positions());
-                normals.extend_from_slice(overlay.normals());
-                triangles.extend(overlay.triangles().iter().map(|t| t.map(|v| v + first)));
+            let shown = self.displacer.get(*id).map_or(bound.triangles(), |overlay| overlay.triangles());
+            triangles.extend(shown.iter().map(|t| t.map(|v| v + first)));
+            if let Some((at, upright)) = self.displacer.vertices(*id) {
+                positions.extend_from_slice(at);
+                normals.extend_from_slice(upright);
                 continue;
             }
             positions.extend(bound.vertices().iter().map(|v| shape.positions[v.index()]));
             normals.extend_from_slice(bound.normals());
-            triangles.extend(bound.triangles().iter().map(|t| t.map(|v| v + first)));
         }
         for (id, shape) in &self.model.patches {
             let first = u32::try_from(positions.len()).unwrap_or(u32::MAX);

@@ -16,6 +16,7 @@ mod jet;
 mod network;
 #[cfg(test)]
 mod property_test;
+pub mod relief;
 mod ribbon;
 pub mod s_patch;
 mod seam;

@@ -11,6 +11,7 @@ use crate::fill::Fill;
 use crate::fixed_mesh::FixedMesh;
 use crate::frame::SurfaceKind;
 use crate::id::{CurveId, PointId, SurfaceId};
+use crate::shadow::Shadow;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -140,7 +141,7 @@ pub struct Surface {
     /// What it minimises where that differs from the document's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub objective: Option<Objective>,
-    /// Regions that minimise something else than the rest of it, or have another edge length.
+    /// Regions that minimise something else than the rest of it, have another edge length, or shadow another surface.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub regions: Vec<Region>,
     /// Normals of its tangent plane at some of its control points. Any length but zero, and either sense, mean the same.
@@ -191,6 +192,9 @@ pub struct Region {
     /// Its target edge length in model units, if another than the surface's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spacing: Option<f64>,
+    /// Whose relief it takes on, if any.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shadow: Option<Shadow>,
 }
 
 /// A side of a curve in a surface, along the curve, seen from where the triangles beside it look counter-clockwise.
@@ -234,6 +238,14 @@ pub struct Embedding {
     pub curve: CurveId,
     /// Where it runs in the skeleton, vertex by vertex along edges, in the curve's own sense.
     pub along: Vec<u32>,
+}
+
+impl Region {
+    /// Whether nothing is said of it: then it is not kept.
+    #[must_use]
+    pub fn is_idle(&self) -> bool {
+        self.objective.is_none() && self.spacing.is_none() && self.shadow.is_none()
+    }
 }
 
 impl Curve {

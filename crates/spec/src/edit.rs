@@ -212,6 +212,20 @@ pub enum Edit {
         /// The choice; `None` follows the document (and for the document means the default).
         objective: Option<Objective>,
     },
+    /// Lets a region take on the relief of another surface, or sets it free (thesis section 7.3.3, region shadowing).
+    Shadow {
+        /// A place in the region.
+        region: On,
+        /// The stamp: another surface that is a disc. `None` sets the region free.
+        of: Option<SurfaceId>,
+        /// What its heights are multiplied by; below 0 they are pressed in.
+        #[serde(default = "crate::shadow::one")]
+        strength: f64,
+        /// By how much it is turned from anchor on anchor, in radians; `None` turns it as little as it can be from how it
+        /// stands in space.
+        #[serde(default)]
+        turn: Option<f64>,
+    },
     /// Prescribes the direction of a curve at one of its control points, or sets it free.
     Tangent {
         /// Which curve.
@@ -386,6 +400,7 @@ impl Edit {
             Self::Spacing { .. } => "Resolution",
             Self::Density { .. } => "Density",
             Self::Objective { .. } => "Objective",
+            Self::Shadow { .. } => "Shadow",
             Self::Tangent { .. } => "Tangent",
             Self::Normal { .. } => "Normal",
             Self::Ribbon { .. } => "Ribbon",

@@ -12,6 +12,7 @@
 
 use crate::document::Objective;
 use crate::id::{CurveId, PointId, SurfaceId};
+use crate::shadow::Shadow;
 use serde::{Deserialize, Serialize};
 
 /// Floats of one surface vertex: position and normal.
@@ -126,6 +127,8 @@ pub struct RegionEntry {
     pub objective: Option<Objective>,
     /// Its target edge length, if it has one of its own.
     pub spacing: Option<f64>,
+    /// Whose relief it takes on, if any.
+    pub shadow: Option<Shadow>,
 }
 
 /// The part of a frame that belongs to a surface.

@@ -19,6 +19,7 @@ mod id;
 mod protocol;
 mod ribbon_file;
 mod seams;
+mod shadow;
 mod share;
 mod surgery;
 mod text;
@@ -54,6 +55,7 @@ pub use protocol::{
 };
 pub use ribbon_file::{RibbonFileError, RibbonHole, ribbon_holes};
 pub use seams::{FillFigures, SeamFigures, Seams};
+pub use shadow::{MOST_STRENGTH, Shadow};
 pub use share::{FRAGMENT_KEY, LinkError, MAX_LINK_BYTES, from_fragment, to_fragment};
 pub use surgery::{Border, Extent, On};
 pub use text::{FORMAT_VERSION, MAX_TEXT_BYTES, TextError, from_text, to_compact_text, to_text};

@@ -11,6 +11,7 @@ use thiserror::Error;
 mod displacement;
 mod exact;
 mod mesh;
+mod shadow;
 
 /// Limits that keep hostile input from exhausting memory; each is far above what a designer makes.
 const MAX_POINTS: usize = 20_000;
@@ -484,8 +485,11 @@ fn validate_regions(id: SurfaceId, surface: &Surface, document: &Document) -> Re
             return refuse("no stretch of the curve begins at that point");
         }
         spacing(&format!("{id}, region beside {} from {}", region.curve, region.from), region.spacing)?;
-        if region.objective.is_none() && region.spacing.is_none() {
-            return refuse("nothing is said of it: neither an objective nor a spacing");
+        if region.is_idle() {
+            return refuse("nothing is said of it: neither an objective, nor a spacing, nor a shadow");
+        }
+        if let Some(why) = region.shadow.and_then(|shadow| document.fault_of_shadow(id, shadow)) {
+            return refuse(why);
         }
         if !seen.insert((region.curve, region.from, region.side)) {
             return refuse("it is spoken of twice");

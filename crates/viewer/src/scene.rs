@@ -376,7 +376,7 @@ mod tests {
         };
         assert!(at.z == 1.0 && at.truncate().distance(glam::Vec2::splat(0.52)) < 0.06 && triangle >= 200);
         assert_eq!(scene.region_of(triangle), None);
-        let region = RegionEntry { surface: SurfaceId(2), objective: None, spacing: None };
+        let region = RegionEntry { surface: SurfaceId(2), objective: None, spacing: None, shadow: None };
         scene.structure.regions = vec![region; 2];
         scene.structure.region_of_triangle = [vec![ductile_spec::NO_REGION; 200], vec![1; 200]].concat();
         assert_eq!((scene.region_of(0), scene.region_of(triangle)), (None, Some(1)));

@@ -165,7 +165,7 @@ mod tests {
         divide(&scene, &mut parts, &mut sorted);
         assert_eq!((parts.len(), parts[0].region), (1, None));
         assert_eq!(sorted, scene.indices, "in one piece it is as it came");
-        let region = RegionEntry { surface: SurfaceId(1), objective: None, spacing: None };
+        let region = RegionEntry { surface: SurfaceId(1), objective: None, spacing: None, shadow: None };
         scene.structure.regions = vec![region; 2];
         scene.structure.region_of_triangle = (0..count).map(|number| u16::from(number % 3 == 0)).collect();
         divide(&scene, &mut parts, &mut sorted);

@@ -199,9 +199,12 @@ impl Toolbox {
             ToolKind::Cage => {
                 "Click where a cage should stand, or drag vertices, edges and faces of one. E extrudes a face."
             }
-            ToolKind::Sweep | ToolKind::Glue | ToolKind::Merge | ToolKind::Trim | ToolKind::Match => {
-                self.pair_hint()
-            }
+            ToolKind::Sweep
+            | ToolKind::Glue
+            | ToolKind::Merge
+            | ToolKind::Trim
+            | ToolKind::Shadow
+            | ToolKind::Match => self.pair_hint(),
         }
     }
 
@@ -223,6 +226,7 @@ impl Toolbox {
             ToolKind::Glue => self.pick_glue(aim.rim),
             ToolKind::Merge => self.pick_merge(Place::of(aim.hit), around.radius),
             ToolKind::Trim => self.pick_trim(Place::of(aim.hit)),
+            ToolKind::Shadow => self.pick_shadow(Place::of(aim.hit)),
             ToolKind::Match => self.pick_match(aim.hit, around.structure),
             ToolKind::Cage => cage::click(aim, &self.options, around.size),
         }

@@ -65,6 +65,7 @@ mod seams;
 #[cfg(target_arch = "wasm32")]
 mod settings;
 #[cfg(target_arch = "wasm32")]
+mod shadow;
 mod stage;
 #[cfg(target_arch = "wasm32")]
 mod surgery;

@@ -31,6 +31,7 @@ fn places(edit: &mut Edit) -> Vec<(SurfaceId, &mut DVec3)> {
     match edit {
         Edit::SLoop { surface, along, .. } => along.iter_mut().map(|at| (*surface, at)).collect(),
         Edit::Burnout { region }
+        | Edit::Shadow { region, .. }
         | Edit::Split { border: Border::Region(region) }
         | Edit::Crease { border: Border::Region(region) } => vec![(region.surface, &mut region.at)],
         Edit::Glue { from, to, .. } | Edit::Merge { from, to, .. } => {

@@ -1,10 +1,12 @@
 //! The surface below displacements, of whatever kind, as flat arrays.
 
+use super::view::View;
 use crate::bound::BoundSurface;
 use crate::model::Model;
+use crate::region;
 use crate::relax::Relaxer;
 use crate::shape::SurfaceShape;
-use ductile_spec::{CurveId, SurfaceId};
+use ductile_spec::{CurveId, PointId, Region, SurfaceId};
 use glam::DVec3;
 
 /// The surface below displacements.
@@ -50,6 +52,25 @@ impl<'a> Base<'a> {
         let embedded = shape.embeddings.iter().find(|embedded| embedded.curve == curve)?;
         let nodes = embedded.vertices.iter().map(|v| bound.node(*v) as usize).collect();
         Some((nodes, model.curves.get(&curve)?.closed))
+    }
+
+    /// The triangles of a region, as they are shown below a shadow.
+    pub(super) fn region(&self, region: &Region, below: View<'_>) -> Option<Vec<[u32; 3]>> {
+        let (_, shape, _) = self.fair?;
+        let labels = ductile_mesh::regions(&shape.mesh);
+        let face = region::face_beside(shape, region.curve, region.from, region.side)?;
+        let is_own: Vec<bool> = shape.mesh.faces().map(|f| labels.of(f) == labels.of(face)).collect();
+        let parent = |k: usize| below.parents.map_or(k, |parents| parents[k] as usize);
+        let own = below.triangles.iter().enumerate().filter(|(k, _)| is_own.get(parent(*k)) == Some(&true));
+        Some(own.map(|(_, corners)| *corners).collect())
+    }
+
+    /// The vertices that stand for a control point; on a curve that is followed on two rims there are two.
+    pub(super) fn nodes_of(&self, point: PointId) -> Vec<u32> {
+        let Some((_, shape, bound)) = self.fair else { return Vec::new() };
+        let is_there =
+            |v: &ductile_mesh::VertexId| shape.mesh.vertex_source(*v).is_some_and(|tag| tag.0 == point.0);
+        shape.mesh.vertices().filter(is_there).map(|v| bound.node(v)).collect()
     }
 
     /// Half the diagonal of the box around it.

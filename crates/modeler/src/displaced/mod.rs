@@ -4,7 +4,7 @@
 //! Below a displaced surface lies the surface as it is without displacements, its *base*: fair ones go on relaxing there,
 //! exact ones follow their controls, and neither knows of what lies over it. What is shown, picked and exported is the base
 //! with offsets added. While the base moves, the blends stay as they are and only the sums are made anew; they are reckoned
-//! from the shape when it has come to rest, or when its connectivity changed. Like the solvers of the relaxer, all this is made
+//! from the shape when it has come to rest, or when its connectivity changed. Shadows lie over that in the same way. Like the solvers of the relaxer, all this is made
 //! from the model and never part of it.
 
 mod back;
@@ -16,7 +16,11 @@ mod places;
 mod reach;
 mod request;
 #[cfg(test)]
+mod shadow_tests;
+mod shadowed;
+#[cfg(test)]
 mod tests;
+mod view;
 
 use crate::error::ModelError;
 use crate::model::Model;
@@ -24,6 +28,7 @@ use crate::relax::Relaxer;
 use base::Base;
 use ductile_spec::{Displaced, SurfaceId};
 use glam::DVec3;
+use shadowed::Shadowed;
 use std::collections::BTreeMap;
 
 pub(crate) use overlay::Overlay;
@@ -33,6 +38,7 @@ pub(crate) use places::{Footprints, give_back};
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Displacer {
     overlays: BTreeMap<SurfaceId, Overlay>,
+    shadowed: BTreeMap<SurfaceId, Shadowed>,
     revisions: u64,
     probe: Option<reach::Probe>,
 }
@@ -51,6 +57,7 @@ impl Displacer {
     /// Forgets everything: the model is another one.
     pub(crate) fn forget(&mut self) {
         self.overlays.clear();
+        self.shadowed.clear();
         self.probe = None;
     }
 
@@ -64,6 +71,7 @@ impl Displacer {
                 None => drop(self.overlays.remove(id)),
             }
         }
+        self.refresh_shadows(model, relaxer, is_at_rest);
     }
 
     fn refresh_one(&mut self, id: SurfaceId, asked: &Displaced, base: &Base<'_>, is_at_rest: bool) {
@@ -132,14 +140,12 @@ impl Displacer {
         relaxer: &'a Relaxer,
         id: SurfaceId,
     ) -> Option<(&'a [DVec3], &'a [[u32; 3]])> {
-        if let Some(overlay) = self.overlays.get(&id) {
-            return Some((overlay.positions(), overlay.triangles()));
-        }
-        Base::of(model, relaxer, id).map(|base| (base.positions, base.triangles))
+        self.view(model, relaxer, id).map(|view| (view.positions, view.triangles))
     }
 
     /// The place of the base under a place of what is shown.
     pub(crate) fn on_base(&self, id: SurfaceId, at: DVec3) -> DVec3 {
+        let at = self.below_shadow(id, at);
         self.overlays.get(&id).map_or(at, |overlay| overlay.on_base(at))
     }
 }

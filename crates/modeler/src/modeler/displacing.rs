@@ -14,10 +14,13 @@ use glam::DVec3;
 impl Modeler {
     /// Does an act; what fails leaves a model to be dropped.
     pub(super) fn act(&mut self, edit: &Edit, before: &Model) -> Result<(), ModelError> {
-        if operation::displaces(edit) || before.document.displacements.is_empty() {
+        if operation::displaces(edit) {
             return operation::apply(&mut self.model, &self.relaxer, &mut self.displacer, edit);
         }
         let edit = self.displacer.edit_on_base(edit);
+        if before.document.displacements.is_empty() {
+            return operation::apply(&mut self.model, &self.relaxer, &mut self.displacer, &edit);
+        }
         let footprints = self.displacer.footprints();
         // The act knows nothing of them: it may leave surfaces with other names, or none.
         let taken = std::mem::take(&mut self.model.document_mut().displacements);

@@ -48,7 +48,7 @@ pub(super) fn merge(model: &mut Model, from: On, to: On, radius: f64, keep: bool
 fn stay_a_tube(model: &mut Model, (id, face): (SurfaceId, FaceId), radius: f64) -> Result<(), ModelError> {
     let wanted = round_to_digits(radius * TUBE_SPACING, 2);
     let is_coarse = model.spacing_of(id) > wanted;
-    region::change_around(model, id, face, |region| {
+    region::change_around(model, id, face, false, |region| {
         region.objective = Some(Objective::Fair);
         region.spacing = is_coarse.then_some(wanted);
     })?;

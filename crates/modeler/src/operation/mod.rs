@@ -29,6 +29,7 @@ mod release;
 mod reverse;
 mod ribbon;
 mod s_loop;
+mod shadow;
 mod sheet;
 mod shift;
 mod slide;
@@ -59,6 +60,7 @@ pub(crate) use import::import;
 pub(crate) use insert::insert;
 pub(crate) use pin::pin;
 pub(crate) use ribbon::forget_lost;
+pub(crate) use shadow::forget_lost as forget_lost_shadows;
 pub(crate) use trim::meeting;
 
 /// Digits of a position that a document keeps, counted from the leading digit of the model's radius.
@@ -80,6 +82,10 @@ pub(crate) fn apply(
     }
     let before = (!model.document.fills.is_empty()).then(|| model.clone());
     act(model, relaxer, edit)?;
+    shadow::forget_lost(model);
+    if model.document.surfaces.values().flat_map(|surface| &surface.regions).any(|r| r.shadow.is_some()) {
+        model.document.validate()?;
+    }
     if let Some(before) = before {
         forget_lost_planes(model);
         patch::follow(model, Some(relaxer));
@@ -113,7 +119,7 @@ pub(crate) fn displaces(edit: &Edit) -> bool {
     )
 }
 
-/// Does an act on displacements; nothing if it is another one.
+/// Does an act on displacements or shadows; nothing if it is another one.
 fn displacing(
     (model, relaxer, displacer): (&mut Model, &Relaxer, &mut Displacer),
     edit: &Edit,
@@ -127,6 +133,7 @@ fn displacing(
         Edit::DropDisplacements { surface } => displace::drop_all(model, *surface),
         Edit::Blending { surface, blending } => displace::blend(all, *surface, blending),
         Edit::Bake { surface } => bake::bake(all, *surface),
+        Edit::Shadow { region, of, strength, turn } => shadow::shadow(all, *region, *of, *strength, *turn),
         _ => return None,
     })
 }
@@ -185,7 +192,8 @@ fn act(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result<(), ModelErr
         | Edit::EraseDisplacement { .. }
         | Edit::DropDisplacements { .. }
         | Edit::Blending { .. }
-        | Edit::Bake { .. } => Ok(()),
+        | Edit::Bake { .. }
+        | Edit::Shadow { .. } => Ok(()),
     }
 }
 

@@ -21,23 +21,25 @@ pub(super) fn change(
     }
     let shape = model.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?;
     let face = region::nearest_face(shape, at).ok_or(ModelError::NoSurface(id))?;
-    change_around(model, id, face, change)
+    change_around(model, id, face, false, change)
 }
 
-/// The same for the region of a face.
+/// The same for the region of a face. A surface in one piece has a name only if that is wanted.
 pub(super) fn change_around(
     model: &mut Model,
     id: SurfaceId,
     face: FaceId,
+    wants_whole: bool,
     change: impl FnOnce(&mut Region),
 ) -> Result<bool, ModelError> {
     let shape = Arc::clone(model.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?);
     let labels = regions(&shape.mesh);
     let piece = labels.of(face);
-    let name = (labels.count() > 1).then(|| region::name_of(&shape, &labels, piece)).flatten();
+    let is_whole = labels.count() < 2 && !wants_whole;
+    let name = if is_whole { None } else { region::name_of(&shape, &labels, piece) };
     let Some((curve, from, side)) = name else { return Ok(false) };
     let surface = model.document_mut().surfaces.get_mut(&id).ok_or(ModelError::NoSurface(id))?;
-    let mut own = Region { curve, from, side, objective: None, spacing: None };
+    let mut own = Region { curve, from, side, objective: None, spacing: None, shadow: None };
     // The piece may have been spoken of under several names: what they said is gathered under one.
     surface.regions.retain(|region| {
         let place = region::own(&shape, &labels, core::slice::from_ref(region), |_| Some(()));
@@ -45,11 +47,12 @@ pub(super) fn change_around(
         if !is_other {
             own.objective = own.objective.or(region.objective);
             own.spacing = own.spacing.or(region.spacing);
+            own.shadow = own.shadow.or(region.shadow);
         }
         is_other
     });
     change(&mut own);
-    if own.objective.is_some() || own.spacing.is_some() {
+    if !own.is_idle() {
         surface.regions.push(own);
     }
     Ok(true)

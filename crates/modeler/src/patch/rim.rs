@@ -24,6 +24,11 @@ impl<'a> PatchRim<'a> {
         Self { patch, edges }
     }
 
+    /// How many edges it has.
+    pub(crate) fn edge_count(&self) -> usize {
+        self.edges.len()
+    }
+
     /// The unit vector that leads away from the surface at the place of its rim nearest to a given one; none without a rim, or
     /// where it has no tangent plane.
     pub(crate) fn away(&self, at: DVec3) -> Option<DVec3> {

@@ -2,6 +2,7 @@
 
 use crate::error::ModelError;
 use crate::model::Model;
+use crate::operation::forget_lost_shadows;
 use crate::shadow;
 use crate::shape::{EmbeddedCurve, Pin, SurfaceShape, edit};
 use crate::surgery::pieces::{tell_regions, told};
@@ -68,7 +69,10 @@ pub(crate) fn unite(model: &mut Model, id: SurfaceId, other: SurfaceId) -> Resul
         let spacing = surface.spacing.or_else(|| Some(model.spacing()));
         let objective = objective.filter(|_| surface.objective != own.objective);
         let spacing = spacing.filter(|_| surface.spacing != own.spacing);
-        all.push((*face, Region { curve, from, side: ductile_spec::Side::Left, objective, spacing }));
+        all.push((
+            *face,
+            Region { curve, from, side: ductile_spec::Side::Left, objective, spacing, shadow: None },
+        ));
     }
     model.surfaces.remove(&other);
     let document = model.document_mut();
@@ -78,7 +82,8 @@ pub(crate) fn unite(model: &mut Model, id: SurfaceId, other: SurfaceId) -> Resul
             side.planes = Some(id);
         }
     }
-    if let Some(own) = document.surfaces.get_mut(&id) {
+    forget_lost_shadows(model);
+    if let Some(own) = model.document_mut().surfaces.get_mut(&id) {
         own.normals.extend(surface.normals);
         own.ribbons.extend(surface.ribbons);
     }

@@ -90,6 +90,7 @@ pub(crate) fn settle(
     }
     crate::operation::forget_unused_points(model, &before);
     crate::operation::forget_lost_planes(model);
+    crate::operation::forget_lost_shadows(model);
     model.document.validate()?;
     Ok(made)
 }
@@ -401,8 +402,16 @@ pub(crate) fn tell_regions(
         if !seen.insert(piece) {
             continue;
         }
-        let name = (labels.count() > 1).then(|| region::name_of(shape, &labels, piece)).flatten();
+        let is_named = labels.count() > 1 || region.shadow.is_some();
+        let name = if is_named { region::name_of(shape, &labels, piece) } else { None };
         match name {
+            // In one piece it has the rest for itself.
+            Some((curve, from, side)) if labels.count() == 1 => {
+                surface.objective = region.objective.or(surface.objective);
+                surface.spacing = region.spacing.or(surface.spacing);
+                let (objective, spacing) = (None, None);
+                surface.regions.push(Region { curve, from, side, objective, spacing, ..*region });
+            }
             Some((curve, from, side)) => surface.regions.push(Region { curve, from, side, ..*region }),
             None if labels.count() == 1 => {
                 surface.objective = region.objective.or(surface.objective);

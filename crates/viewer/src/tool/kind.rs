@@ -39,6 +39,8 @@ pub enum ToolKind {
     Cage,
     /// Pulls the inside of surfaces.
     Displace,
+    /// Lets a region take on the relief of another surface.
+    Shadow,
     /// Lets a curve grow or shrink to the size of another; a button of the properties, not of the bar.
     Match,
 }
@@ -61,6 +63,7 @@ impl ToolKind {
         Self::Fill,
         Self::Cage,
         Self::Displace,
+        Self::Shadow,
     ];
 
     /// Its word in the page: `tool-shape` is its button.
@@ -82,6 +85,7 @@ impl ToolKind {
             Self::Fill => "fill",
             Self::Cage => "cage",
             Self::Displace => "displace",
+            Self::Shadow => "shadow",
             Self::Match => "match",
         }
     }
@@ -105,6 +109,7 @@ impl ToolKind {
             "f" => Some(Self::Fill),
             "q" => Some(Self::Cage),
             "e" => Some(Self::Displace),
+            "o" => Some(Self::Shadow),
             _ => None,
         }
     }
@@ -118,7 +123,16 @@ impl ToolKind {
     /// Whether it takes curves.
     #[must_use]
     pub fn wants_curves(self) -> bool {
-        !matches!(self, Self::Burnout | Self::Glue | Self::Merge | Self::Trim | Self::Cage | Self::Displace)
+        !matches!(
+            self,
+            Self::Burnout
+                | Self::Glue
+                | Self::Merge
+                | Self::Trim
+                | Self::Cage
+                | Self::Displace
+                | Self::Shadow
+        )
     }
 
     /// Whether it takes surfaces, or places on them.

@@ -30,6 +30,10 @@ impl Toolbox {
             (ToolKind::Trim, true) => {
                 "Now click the part of the second surface that should stay. S: smooth where they join, or a crease."
             }
+            (ToolKind::Shadow, false) => {
+                "Click the region that should take on the relief of another surface."
+            }
+            (ToolKind::Shadow, true) => "Now click the stamp: another surface with one rim.",
             _ => "Click the closed curve whose size it should get.",
         }
     }
@@ -122,6 +126,21 @@ impl Toolbox {
                 self.conclude();
                 let smooth = self.options.smooth;
                 vec![Act::Edit(Edit::Trim { first: first.on(), second: second.on(), smooth })]
+            }
+        }
+    }
+
+    pub(super) fn pick_shadow(&mut self, place: Option<Place>) -> Vec<Act> {
+        let Some(place) = place else { return say("There is no surface here.") };
+        match self.first_place() {
+            None => self.begin(place),
+            Some(first) if first.surface == place.surface => {
+                say("This is the same surface. A region takes on the relief of another one.")
+            }
+            Some(first) => {
+                self.conclude();
+                let of = Some(place.surface);
+                vec![Act::Edit(Edit::Shadow { region: first.on(), of, strength: 1.0, turn: None })]
             }
         }
     }

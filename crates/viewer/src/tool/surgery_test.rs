@@ -289,3 +289,27 @@ fn what_the_model_no_longer_has_is_forgotten() {
     tools.refresh(&Scene::default());
     assert_eq!(tools.kind(), ToolKind::Shape);
 }
+
+#[test]
+fn a_shadow_wants_a_region_and_then_another_surface() {
+    let (structure, document) = model();
+    let around = Surroundings {
+        structure: &structure,
+        document: &document,
+        forward: -Vec3::Z,
+        radius: 0.1,
+        size: 1.0,
+    };
+    let hit = |id, x| Hit::Surface { id: SurfaceId(id), at: Vec3::X * x, normal: Vec3::Z, triangle: 0 };
+    let mut tools = Toolbox::default();
+    tools.choose(ToolKind::Shadow);
+    let mut click = |hit: Option<&Hit>| tools.click(Aim { hit, ..Aim::default() }, around);
+    assert!(matches!(&click(None)[..], [Act::Say(_)]));
+    assert_eq!(click(Some(&hit(1, 0.5))), []);
+    assert!(matches!(&click(Some(&hit(1, 0.7)))[..], [Act::Say(_)]), "no surface shadows itself");
+    let region = On { surface: SurfaceId(1), at: DVec3::X * 0.5 };
+    let edit = Edit::Shadow { region, of: Some(SurfaceId(2)), strength: 1.0, turn: None };
+    assert_eq!(click(Some(&hit(2, 3.0))), [Act::Edit(edit)]);
+    assert_eq!(tools.first(), None, "it begins anew");
+    assert!(!ToolKind::Shadow.takes(&Hit::Curve { id: CurveId(1), at: Vec3::ZERO }, &structure));
+}

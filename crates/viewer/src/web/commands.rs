@@ -164,6 +164,7 @@ impl Page {
             "free-tangent" => self.free_tangent(),
             "free-normal" => self.free_normal(),
             "free-ribbon" => self.free_ribbon(),
+            "free-shadow" => self.free_shadow(),
             "release" => {
                 if let Selection::Point(point) = self.selection {
                     self.request(Request::Edit(Edit::Release { point }));

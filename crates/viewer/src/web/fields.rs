@@ -6,7 +6,7 @@ use super::displace;
 use super::dom;
 use super::fill;
 use super::page::{Page, act};
-use super::{extent, legend, normal, options, ribbon, tangent};
+use super::{extent, legend, normal, options, ribbon, shadow, tangent};
 use crate::number;
 use crate::tool::Selection;
 use ductile_spec::{Edit, PointId, Request};
@@ -35,6 +35,9 @@ pub(crate) fn listen() {
     }
     for (index, id) in displace::FIELDS.into_iter().enumerate() {
         on_field(id, move |page, text| page.typed_displacement(index, text));
+    }
+    for (index, id) in shadow::FIELDS.into_iter().enumerate() {
+        on_field(id, move |page, text| page.typed_shadow(index, text));
     }
     on_field(displace::RANGE, Page::typed_range);
     on_field(fill::RESOLUTION, Page::typed_fill_resolution);
@@ -97,6 +100,7 @@ impl Page {
             .chain(density::FIELDS)
             .chain(cage::FIELDS)
             .chain(displace::FIELDS)
+            .chain(shadow::FIELDS)
             .chain([ribbon::FIELD, extent::FIELD, options::FIELD, displace::RANGE, fill::RESOLUTION])
         {
             self.fill_field(&dom::element_as(id), false);
@@ -128,6 +132,7 @@ impl Page {
             (fill::RESOLUTION, _) => self.fill_resolution_text(),
             (displace::RANGE, _) => number::show(self.tools.options().range),
             (field, _) if displace::FIELDS.contains(&field) => self.displacement_text(field),
+            (field, _) if shadow::FIELDS.contains(&field) => self.shadow_text(field),
             (extent::FIELD, Selection::Curve(_)) => self.loop_radius_text(),
             (ribbon::FIELD, Selection::Curve(_)) => self.ribbon_text(),
             (_, Selection::Point(point)) => {

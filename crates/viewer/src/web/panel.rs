@@ -260,6 +260,7 @@ impl Page {
         }
         self.show_fields();
         self.show_objectives();
+        self.show_shadow();
         self.show_density();
         self.show_displacements();
         self.show_fill();
