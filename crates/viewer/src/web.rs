@@ -66,6 +66,7 @@ mod seams;
 mod settings;
 #[cfg(target_arch = "wasm32")]
 mod shadow;
+#[cfg(target_arch = "wasm32")]
 mod stage;
 #[cfg(target_arch = "wasm32")]
 mod surgery;
