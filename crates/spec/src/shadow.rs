@@ -2,6 +2,7 @@
 //! (Welch 1995, section 7.3.3).
 
 use crate::id::SurfaceId;
+use core::f64::consts::TAU;
 use serde::{Deserialize, Serialize};
 
 /// Most that heights may be multiplied by.
@@ -29,11 +30,10 @@ impl Shadow {
     /// What is wrong with its numbers, if anything is.
     #[must_use]
     pub fn fault(&self) -> Option<&'static str> {
-        if !(self.strength.abs() <= MOST_STRENGTH) {
+        if !(-MOST_STRENGTH..=MOST_STRENGTH).contains(&self.strength) {
             return Some("its strength must be a number between -100 and 100");
         }
-        (!(self.turn.abs() <= core::f64::consts::TAU))
-            .then_some("its turn must be an angle of at most a full turn")
+        (!(-TAU..=TAU).contains(&self.turn)).then_some("its turn must be an angle of at most a full turn")
     }
 }
 

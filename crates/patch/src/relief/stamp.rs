@@ -6,6 +6,9 @@ use super::error::ReliefError;
 use super::lookup::Lookup;
 use glam::{DMat3, DVec2, DVec3};
 
+/// An area below this part of the square of the rim is none.
+const NOTHING: f64 = 1e-9;
+
 /// A disc whose relief can be taken.
 #[derive(Clone, Debug)]
 pub struct Stamp {
@@ -70,7 +73,9 @@ pub(super) fn axes(rim: &[DVec3], angles: &[f64], length: f64) -> Result<DMat3, 
         area += (a - origin).cross(b - origin) * 0.5;
     }
     centre /= length;
-    if !(area.length() > 1e-9 * length * length) {
+    // Written so that what is no number counts as nothing.
+    let is_something = |size: f64| size > NOTHING * length * length;
+    if !is_something(area.length()) {
         return Err(ReliefError::Flat);
     }
     let normal = area / area.length();
@@ -82,7 +87,7 @@ pub(super) fn axes(rim: &[DVec3], angles: &[f64], length: f64) -> Result<DMat3, 
         let (sin, cos) = (libm::sin(angles[k]), libm::cos(angles[k]));
         sum += (flat * cos - normal.cross(flat) * sin) * weight;
     }
-    if !(sum.length() > 1e-9 * length * length) {
+    if !is_something(sum.length()) {
         return Err(ReliefError::Flat);
     }
     let first = (sum - normal * normal.dot(sum)).try_normalize().ok_or(ReliefError::Flat)?;
