@@ -47,7 +47,7 @@ pub enum ToolKind {
 
 impl ToolKind {
     /// Those of the bar.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 16] = [
         Self::Shape,
         Self::Point,
         Self::Curve,
