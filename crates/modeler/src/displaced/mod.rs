@@ -16,7 +16,7 @@ mod places;
 mod reach;
 mod request;
 #[cfg(test)]
-mod shadow_tests;
+mod shadow_test;
 mod shadowed;
 #[cfg(test)]
 mod tests;
