@@ -74,3 +74,15 @@ export const domeThroughDisc = {
     },
   },
 };
+
+/** A flat disc, surface 1 with its rim curve 1, and beside it a dome held up by point 9: surface 2, rim curve 2. */
+export const discAndDome = {
+  ...domeThroughDisc,
+  name: "Disc and dome",
+  points: Object.fromEntries(
+    Object.entries({ ...circle(1, 0.8), ...circle(5, 0.8), 9: [0, 0, 0.5] }).map(([id, [x, y, z]]) => [
+      id,
+      [x + (id < 5 ? -1.1 : 1.1), y, z],
+    ]),
+  ),
+};
