@@ -224,6 +224,9 @@ fn table() -> Vec<(&'static str, Expected, Document)> {
     ]
 }
 
+/// After so many steps a shape counts as settled, whatever it does (`modeler/relax`).
+const MOST_STEPS: u32 = 600;
+
 #[test]
 fn a_document_is_opened_whole_or_refused_with_a_reason() {
     for (name, expected, document) in table() {
@@ -245,7 +248,7 @@ fn a_document_is_opened_whole_or_refused_with_a_reason() {
             }
             Opened => {
                 assert_eq!(refused, None, "{name}");
-                let energy = bench.rest(600);
+                let energy = bench.rest(MOST_STEPS);
                 assert!(energy.is_finite() && energy >= 0.0, "{name}: {energy}");
                 // It can be dragged, let go, undone, and opened again.
                 let point = *document.points.keys().next_back().unwrap();
@@ -256,7 +259,8 @@ fn a_document_is_opened_whole_or_refused_with_a_reason() {
                     bench.step(Some(home + DVec3::Z * (0.3 * radius)));
                 }
                 bench.send(Request::Drop);
-                let energy = bench.rest(600);
+                // Once moved, the document is opened a second time out of sight, which may take as long again.
+                let energy = bench.rest(2 * MOST_STEPS);
                 assert!(energy.is_finite(), "{name}: {energy}");
                 let mut again = Bench::new();
                 again.accept(Request::OpenText { text: bench.document.clone() });

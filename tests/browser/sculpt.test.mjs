@@ -192,7 +192,7 @@ function onBareCurve(state) {
   const free = samples.filter((place) => state.points.every(({ screen }) => distance(screen, place) > 30));
   assert.ok(free.length > 0);
   const first = free.reduce((first, place) => (place[0] < first[0] ? place : first));
-  // A third of the way to the next sample lies on none.
+  // A few pixels towards the next one lies on no sample, and still on the curve.
   const next = samples[(samples.indexOf(first) + 1) % samples.length];
-  return [0, 1].map((axis) => first[axis] + (next[axis] - first[axis]) / 3);
+  return [0, 1].map((axis) => first[axis] + (4 * (next[axis] - first[axis])) / distance(next, first));
 }
