@@ -87,8 +87,7 @@ test("a cage is placed, its vertices, faces and edges are dragged and changed, a
     assert.deepEqual([...corners].sort((a, b) => a - b), [9, 10, 11, 12]);
 
     // The face goes with the hand as a whole.
-    const held = middleOf(extruded, corners);
-    await hover(page, held, new RegExp(`^face ${face} of surface 1$`));
+    const held = await placeOnFace(page, extruded, face, corners);
     await drag(page, held, [held[0] - 40, held[1] + 25]);
     const moved = await atRest(page, (state) => state.act === "Move" && state.document !== extruded.document);
     const ways = corners.map((id) => point(moved, id).at.map((x, k) => x - point(extruded, id).at[k]));
@@ -154,6 +153,18 @@ async function faceInSight(page, state, vertex) {
     if ((await inspect(page)).hover === `face ${face} of surface 1`) return { face, middle };
   }
   return assert.fail("no face is in sight");
+}
+
+/** A place at which the surface over a face is in front: its middle may lie behind a wall of the face. */
+async function placeOnFace(page, state, face, corners) {
+  const middle = middleOf(state, corners);
+  const toward = (id, part) => [0, 1].map((axis) => middle[axis] + part * (point(state, id).screen[axis] - middle[axis]));
+  for (const place of [middle, ...corners.flatMap((id) => [0.3, 0.6].map((part) => toward(id, part)))]) {
+    await page.mouse.move(...place);
+    await drawn(page);
+    if ((await inspect(page)).hover === `face ${face} of surface 1`) return place;
+  }
+  return assert.fail("the face is not in sight");
 }
 
 /** An edge of the cage whose middle can be pointed at. */
