@@ -6,6 +6,7 @@
 
 mod cage;
 mod check;
+mod dehydrate;
 mod displace;
 mod fill;
 mod input;
@@ -47,6 +48,8 @@ enum Command {
     Fill(fill::Options),
     /// Move points and curves of a mesh, and the surface around them smoothly
     Displace(displace::Options),
+    /// Write the least meshes of a model, or what they grow to again at an edge length
+    Dehydrate(dehydrate::Options),
     /// Tell how well surfaces meet along the curves that they share
     Seams(seams::Options),
     /// Print the share link of a specification
@@ -75,6 +78,7 @@ fn main() -> ExitCode {
         Command::Cage(options) => cage::run(&options),
         Command::Fill(options) => fill::run(&options),
         Command::Displace(options) => displace::run(&options),
+        Command::Dehydrate(options) => dehydrate::run(&options),
         Command::Link { spec, base } => link::link(&spec, &base).map(|()| ExitCode::SUCCESS),
         Command::Seams(options) => seams::run(&options),
         Command::Verify(options) => verify::run(&options),

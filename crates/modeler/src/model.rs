@@ -55,6 +55,19 @@ impl Model {
         Self::build(Arc::new(document), 0)
     }
 
+    /// The document with the least skeletons that hold the topology and the controls of what its surfaces are now (thesis
+    /// section 5.2).
+    #[must_use]
+    pub fn dehydrated(&self) -> Document {
+        let mut document = Document::clone(&self.document);
+        for (id, shape) in &self.surfaces {
+            if let Some(surface) = document.surfaces.get_mut(id) {
+                surface.skeleton = crate::skeleton::skeleton_of(self, shape);
+            }
+        }
+        document
+    }
+
     /// Builds the shapes of the same document anew. Revisions go on from this model's, so that the new shapes can take the
     /// place of its own.
     ///
