@@ -163,5 +163,30 @@ test("two surfaces that cross are trimmed at the parts that were clicked, in a c
       }
       await takeBack(page, "Trim", before);
     }
+    // With a ribbon the join is held at the angle that is typed; the field is there only while there is an angle.
+    await page.keyboard.press("t");
+    assert.ok(!(await page.locator("#join-angle").isVisible()));
+    await page.keyboard.press("r");
+    assert.ok(!(await page.locator("#join-angle").isVisible()), "a smooth join has no angle");
+    await page.keyboard.press("s");
+    await page.locator("#join-angle").fill("200");
+    await page.locator("#join-angle").press("Enter");
+    await until(page, () => /at most 180/.test(document.getElementById("number-error").textContent));
+    await page.locator("#join-angle").fill("120");
+    await page.locator("#join-angle").press("Enter");
+    await hover(page, top, ({ hover }) => hover === "surface 2");
+    await page.mouse.click(...top);
+    await untilInspect(page, ({ underWay }) => underWay);
+    await hover(page, border, ({ hover, marked }) => hover === "surface 1" && marked.lines === 1);
+    await page.mouse.click(...border);
+    await atRest(page, ({ act }) => act === "Trim");
+    const { surfaces } = await documentOf(page);
+    const [one, other] = Object.values(surfaces).map(({ ribbons }) => Object.values(ribbons ?? {})[0]?.cross);
+    assert.ok(Object.keys(one).length >= 6 && Object.keys(other).length === Object.keys(one).length);
+    for (const [id, a] of Object.entries(one)) {
+      const cosine = a.reduce((sum, x, axis) => sum + x * other[id][axis], 0);
+      assert.ok(Math.abs(cosine + 0.5) < 1e-6, `120 degrees were asked for: ${cosine}`);
+    }
+    await takeBack(page, "Trim", before);
   });
 });

@@ -140,7 +140,12 @@ fn wild_edit(dice: &mut Dice, model: &Model, surface: SurfaceId) -> Edit {
         }
         7 => {
             let second = On { surface: SurfaceId(2), at: wild };
-            Edit::Trim { first: on, second, smooth: dice.coin() }
+            Edit::Trim {
+                first: on,
+                second,
+                smooth: dice.coin(),
+                ribbon: dice.coin().then_some(ductile_spec::JoinRibbon::AsMet),
+            }
         }
         8 => Edit::Expand { curve, to: Extent::Radius(number(dice)) },
         9 => Edit::Pin { surface, at: wild },

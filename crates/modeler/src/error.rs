@@ -10,6 +10,7 @@ use ductile_patch::cage::edit::EditError;
 use ductile_patch::relief::ReliefError;
 use ductile_solver::SolverError;
 use ductile_spec::{CurveId, Defect, Document, LinkError, PointId, SurfaceId, SurfaceKind, TextError};
+use glam::DVec3;
 use thiserror::Error;
 
 /// Why a request was refused. The model is as it was before.
@@ -107,6 +108,16 @@ pub enum ModelError {
     /// A file that should be a text is none.
     #[error("the OBJ file cannot be read: it is not a text")]
     NoText,
+    /// A curve that is to lie in a surface touches a rim of it on its way.
+    #[error("{curve} would touch a rim of {surface} at {at}: it may end there, but not pass along it")]
+    TouchesRim {
+        /// The curve.
+        curve: CurveId,
+        /// The surface.
+        surface: SurfaceId,
+        /// Where.
+        at: DVec3,
+    },
     /// A size is not a usable number.
     #[error("a size must be a positive number up to 1e6")]
     BadSize,
@@ -461,11 +472,26 @@ pub enum ModelError {
     /// The surfaces do not meet.
     #[error("{0} and {1} do not meet: move them so that they run through one another")]
     NoMeeting(SurfaceId, SurfaceId),
-    /// The line in which they meet ends at a rim.
+    /// The line in which they meet ends inside both.
     #[error(
-        "{0} and {1} meet in a line that ends at a rim, so that it cuts nothing off; let them run through one another"
+        "{one} and {other} meet in a line that divides neither of them, for it ends inside at {at}; let one of them run right through the other"
     )]
-    OpenMeeting(SurfaceId, SurfaceId),
+    OpenMeeting {
+        /// The first.
+        one: SurfaceId,
+        /// The second.
+        other: SurfaceId,
+        /// Where it ends.
+        at: DVec3,
+    },
+    /// What is cut stands inside a surface that runs on there.
+    #[error(
+        "the line in which they meet does not divide {0}: what is cut stands on it, and can neither be joined smoothly nor at an angle"
+    )]
+    StandsInside(SurfaceId),
+    /// An angle between two surfaces is none.
+    #[error("the angle of a join is above 0° and at most 180°; a smooth join has none")]
+    BadJoinAngle,
     /// How the surfaces meet cannot be told.
     #[error("{one} and {other} touch rather than cross: {why}")]
     Untold {
@@ -480,7 +506,9 @@ pub enum ModelError {
     #[error("the parts of {0} and {1} that are to stay do not meet anywhere")]
     PartsApart(SurfaceId, SurfaceId),
     /// A curve that is to lie in a surface crosses another one there.
-    #[error("{curve} would cross another curve of {surface}; release that one first")]
+    #[error(
+        "{curve} would run over a control point of {surface} that is not its own, or cross a curve where there is no room for one; release that point, or move the curve"
+    )]
     CrossesCurve {
         /// The curve.
         curve: CurveId,

@@ -250,7 +250,7 @@ fn area(nodes: &[DVec3]) -> DVec3 {
 }
 
 /// Unit tangents at the samples: of the parabola through each and its neighbours, or what the document prescribes.
-fn tangents(document: &Document, id: CurveId, shape: &CurveShape) -> Vec<DVec3> {
+pub(crate) fn tangents(document: &Document, id: CurveId, shape: &CurveShape) -> Vec<DVec3> {
     let (nodes, count) = (&shape.nodes, shape.nodes.len());
     let chord = |k: usize| unit(nodes[(k + 1) % count] - nodes[k % count]).unwrap_or(DVec3::ZERO);
     let length = |k: usize| nodes[(k + 1) % count].distance(nodes[k % count]);

@@ -8,7 +8,7 @@ use crate::document::{Density, Objective};
 use crate::fill::{FillStyle, Hole};
 use crate::fixed_mesh::MeshSource;
 use crate::id::{CurveId, PointId, SurfaceId};
-use crate::surgery::{Border, Extent, On};
+use crate::surgery::{Border, Extent, JoinRibbon, On};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -130,7 +130,8 @@ pub enum Edit {
         /// How.
         style: FillStyle,
     },
-    /// Cuts two surfaces along their intersection and joins them there (thesis sections 3.3.1 and 7.4).
+    /// Cuts two surfaces along their intersection and joins them there (thesis section 3.4.1). One that the intersection
+    /// does not divide is not cut: what is cut of the other stands on it.
     Trim {
         /// A place on the part of the first that stays.
         first: On,
@@ -138,6 +139,9 @@ pub enum Edit {
         second: On,
         /// Whether they join smoothly there, instead of in a crease.
         smooth: bool,
+        /// Whether, and how, both are held to directions in which they leave the curve at which they are joined.
+        #[serde(default)]
+        ribbon: Option<JoinRibbon>,
     },
     /// Grows or shrinks the loop of a closed curve about its centre.
     Expand {

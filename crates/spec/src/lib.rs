@@ -57,7 +57,7 @@ pub use ribbon_file::{RibbonFileError, RibbonHole, ribbon_holes};
 pub use seams::{FillFigures, SeamFigures, Seams};
 pub use shadow::{MOST_STRENGTH, Shadow};
 pub use share::{FRAGMENT_KEY, LinkError, MAX_LINK_BYTES, from_fragment, to_fragment};
-pub use surgery::{Border, Extent, On};
+pub use surgery::{Border, Extent, JoinRibbon, On};
 pub use text::{FORMAT_VERSION, MAX_TEXT_BYTES, TextError, from_text, to_compact_text, to_text};
 pub use validate::Defect;
 

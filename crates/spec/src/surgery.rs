@@ -27,6 +27,16 @@ pub enum Border {
     Region(On),
 }
 
+/// How two surfaces that are trimmed are held where they are joined.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum JoinRibbon {
+    /// In the directions in which they meet now; joined smoothly, in the plane half way between.
+    AsMet,
+    /// At this angle between them, in radians, above 0 and at most π: each turns by as much as the other.
+    Angle(f64),
+}
+
 /// What the loop of a curve grows or shrinks to.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]

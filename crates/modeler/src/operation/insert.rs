@@ -16,12 +16,44 @@ const ROOM: f64 = 0.25;
 
 /// Makes a control point at the place of a curve nearest to a given one. The shape does not change by it.
 pub(crate) fn insert(model: &mut Model, id: CurveId, at: DVec3) -> Result<PointId, ModelError> {
+    let (sample, place) = make_room(model, id, at)?;
+    let point = model.document.next_point();
+    model.document_mut().points.insert(point, place);
+    tie(model, id, (sample, place), point)?;
+    Ok(point)
+}
+
+/// Lets a curve pass through a control point that is there already, beside the curve at a given place. The curve is carried to
+/// it as it relaxes.
+pub(crate) fn insert_there(
+    model: &mut Model,
+    id: CurveId,
+    at: DVec3,
+    point: PointId,
+) -> Result<(), ModelError> {
+    if model.document.curves.get(&id).is_some_and(|curve| curve.through.contains(&point)) {
+        return Err(ModelError::TwiceThrough(point));
+    }
+    let room = make_room(model, id, at)?;
+    tie(model, id, room, point)
+}
+
+/// A sample of a curve that is no control yet, for one at a place, and where exactly.
+fn make_room(model: &mut Model, id: CurveId, at: DVec3) -> Result<(usize, DVec3), ModelError> {
     let at = kept_position(model, at)?;
     let shape = model.curves.get(&id).ok_or(ModelError::NoCurve(id))?;
     let (edge, t) = shape.nearest(at).ok_or(ModelError::NoCurve(id))?;
     let place = kept_position(model, shape.place(edge, with_room(shape, edge, t)))?;
-    let sample = free_sample(model, id, edge, t)?;
-    let point = model.document.next_point();
+    Ok((free_sample(model, id, edge, t)?, place))
+}
+
+/// Makes a sample of a curve a control, and the vertices of all surfaces that follow it there.
+fn tie(
+    model: &mut Model,
+    id: CurveId,
+    (sample, place): (usize, DVec3),
+    point: PointId,
+) -> Result<(), ModelError> {
     let revision = model.next_revision();
     let shape = edit(model.curves.get_mut(&id).ok_or(ModelError::NoCurve(id))?);
     shape.nodes[sample] = place;
@@ -29,9 +61,7 @@ pub(crate) fn insert(model: &mut Model, id: CurveId, at: DVec3) -> Result<PointI
     shape.controls.push((u32::try_from(sample).unwrap_or(u32::MAX), point));
     shape.controls.sort_unstable();
     shape.revision = revision;
-    let document = model.document_mut();
-    document.points.insert(point, place);
-    if let Some(curve) = document.curves.get_mut(&id) {
+    if let Some(curve) = model.document_mut().curves.get_mut(&id) {
         curve.through.insert(rank, point);
     }
     for surface in model.document.surfaces_on(id).collect::<Vec<_>>() {
@@ -45,8 +75,7 @@ pub(crate) fn insert(model: &mut Model, id: CurveId, at: DVec3) -> Result<PointI
         }
         refresh_skeleton(model, surface);
     }
-    model.document.validate()?;
-    Ok(point)
+    Ok(model.document.validate()?)
 }
 
 /// Where a new control at a sample stands among the points of the curve.

@@ -19,6 +19,9 @@ const CORNERS: u32 = 4;
 /// Longest edges of a tube, as a part of its radius: twelve triangles go round it.
 const TUBE_SPACING: f64 = 0.5;
 
+/// Sine of the angle between way and normal up to which the way leads straight up: a facet leans by less.
+const STRAIGHT: f64 = 0.2;
+
 /// Makes a tube between two places.
 pub(super) fn merge(model: &mut Model, from: On, to: On, radius: f64, keep: bool) -> Result<(), ModelError> {
     if !(radius > 0.0 && radius <= MAX_COORDINATE) {
@@ -28,9 +31,9 @@ pub(super) fn merge(model: &mut Model, from: On, to: On, radius: f64, keep: bool
     if is_near {
         return Err(ModelError::HolesMeet);
     }
-    // The tube leads from one place to the other: their loops are drawn to face each other.
-    let one = pierce(model, from, to.at, radius)?;
-    let other = pierce(model, to, from.at, radius)?;
+    let [first, second] = frames(model, from, to)?;
+    let one = pierce(model, from, first, radius)?;
+    let other = pierce(model, to, second, radius)?;
     let rims =
         [(from.surface, rim_of(model, from.surface, one)?), (to.surface, rim_of(model, to.surface, other)?)];
     let [first, second] = rims;
@@ -65,8 +68,38 @@ fn stay_a_tube(model: &mut Model, (id, face): (SurfaceId, FaceId), radius: f64) 
     Ok(())
 }
 
-/// Makes a hole round a place; gives the curve on its rim.
-fn pierce(model: &mut Model, on: On, towards: DVec3, radius: f64) -> Result<CurveId, ModelError> {
+/// A place on a surface as a hole is drawn there: its centre, and unit vectors along the normal and across it, toward the
+/// middle between two corners.
+#[derive(Clone, Copy, Debug)]
+struct Frame {
+    centre: DVec3,
+    normal: DVec3,
+    across: DVec3,
+}
+
+/// Frames at both ends of a tube, the second turned into the first along the way without twist (double reflection, Wang et
+/// al. 2008), so that corner faces corner. At the first, a side of the hole lies across the way; where the way leads straight
+/// up, which every facet of the mesh decides otherwise, any direction does.
+fn frames(model: &Model, from: On, to: On) -> Result<[Frame; 2], ModelError> {
+    let [(start, normal), (end, other)] = [upright(model, from)?, upright(model, to)?];
+    let way = end - start;
+    let along = |normal: DVec3| if normal.dot(way) < 0.0 { -normal } else { normal };
+    let side = way.normalize_or_zero().cross(normal);
+    let across =
+        if side.length() > STRAIGHT { side.normalize_or_zero() } else { normal.any_orthonormal_vector() };
+    let reflect = |v: DVec3, by: DVec3| {
+        let size = by.length_squared();
+        if size > 1e-12 { v - by * (2.0 * by.dot(v) / size) } else { v }
+    };
+    let by = way.normalize_or_zero();
+    let (turned, ahead) = (reflect(across, by), reflect(along(normal), by));
+    let there = reflect(turned, along(other) - ahead).reject_from_normalized(other);
+    let there = there.try_normalize().unwrap_or_else(|| other.any_orthonormal_vector());
+    Ok([Frame { centre: start, normal, across }, Frame { centre: end, normal: other, across: there }])
+}
+
+/// The nearest place on a surface, and the unit normal there.
+fn upright(model: &Model, on: On) -> Result<(DVec3, DVec3), ModelError> {
     let id = on.surface;
     let shape = model.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?;
     if !on.at.is_finite() {
@@ -75,10 +108,14 @@ fn pierce(model: &mut Model, on: On, towards: DVec3, radius: f64) -> Result<Curv
     let place = nearest_place(&shape.mesh, &shape.positions, on.at).ok_or(ModelError::NoSurface(id))?;
     let centre = place.position(&shape.mesh, &shape.positions).ok_or(ModelError::BadPosition)?;
     let normal = measure::face_normal(&shape.mesh, &shape.positions, place.face(&shape.mesh));
-    let normal = normal.try_normalize().ok_or(ModelError::NoRoom(id))?;
-    // Both loops begin where the way between the places is the same distance: no twist.
-    let across = (towards - centre).cross(normal).try_normalize();
-    let u = across.unwrap_or_else(|| normal.any_orthonormal_vector());
+    Ok((centre, normal.try_normalize().ok_or(ModelError::NoRoom(id))?))
+}
+
+/// Makes a hole round a place; gives the curve on its rim.
+fn pierce(model: &mut Model, on: On, frame: Frame, radius: f64) -> Result<CurveId, ModelError> {
+    let id = on.surface;
+    let shape = model.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?;
+    let Frame { centre, normal, across: u } = frame;
     let v = normal.cross(u);
     let corner = |k: u32| {
         let (sin, cos) = libm::sincos((f64::from(k) + 0.5) * core::f64::consts::TAU / f64::from(CORNERS));

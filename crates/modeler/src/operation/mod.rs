@@ -57,7 +57,7 @@ use std::sync::Arc;
 pub(crate) use delete::drop_unused;
 pub(crate) use fill::{forget_lost as forget_lost_planes, found_loop, mended};
 pub(crate) use import::import;
-pub(crate) use insert::insert;
+pub(crate) use insert::{insert, insert_there};
 pub(crate) use pin::pin;
 pub(crate) use ribbon::forget_lost;
 pub(crate) use shadow::forget_lost as forget_lost_shadows;
@@ -158,7 +158,9 @@ fn act(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result<(), ModelErr
         Edit::Fill { hole, style } => fill::fill(model, relaxer, hole, *style),
         Edit::FillNetwork { curve, style } => fill::fill_network(model, relaxer, *curve, *style),
         Edit::Refill { surface, style } => fill::refill(model, relaxer, *surface, *style),
-        Edit::Trim { first, second, smooth } => trim::trim(model, *first, *second, *smooth),
+        Edit::Trim { first, second, smooth, ribbon } => {
+            trim::trim((model, relaxer), [*first, *second], *smooth, *ribbon)
+        }
         Edit::Pin { surface, at } => pin(model, relaxer, *surface, *at).map(drop),
         Edit::Insert { curve, at } => insert(model, *curve, *at).map(drop),
         Edit::Release { point } => release::release(model, *point),

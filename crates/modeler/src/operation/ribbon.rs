@@ -37,10 +37,7 @@ pub(super) fn ribbon(
             }
             let bound = relaxer.surface(id, shape).ok_or(ModelError::NoSurface(id))?;
             let mut cross = bound.planes(model, shape).leaving(id, curve, *angle)?;
-            let kept = |x: f64| round_to_digits(x, DIRECTION_DIGITS) + 0.0;
-            // Noise of a sine is no digit.
-            let kept = |x: f64| if x.abs() < 1e-12 { 0.0 } else { kept(x) };
-            cross.values_mut().for_each(|at| *at = DVec3::from_array(at.to_array().map(kept)));
+            cross.values_mut().for_each(|at| *at = kept_direction(*at));
             Some(Ribbon::directed(cross))
         }
     };
@@ -53,6 +50,13 @@ pub(super) fn ribbon(
     model.document.validate()?;
     check_bends(model, id)?;
     plane::check_cross(model, id, curve, &ribbon)
+}
+
+/// The direction that a document keeps for a unit vector that was reckoned.
+pub(super) fn kept_direction(direction: DVec3) -> DVec3 {
+    let kept = |x: f64| round_to_digits(x, DIRECTION_DIGITS) + 0.0;
+    // Noise of a sine is no digit.
+    DVec3::from_array(direction.to_array().map(|x| if x.abs() < 1e-12 { 0.0 } else { kept(x) }))
 }
 
 /// Refuses a plane for a surface that has no bending to hold it with.

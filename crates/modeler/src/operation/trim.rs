@@ -1,161 +1,140 @@
 //! `trim`: two surfaces are cut along their intersection and joined there (thesis section 3.4.1). The intersection is taken
-//! as a snapshot: a fair curve through points of it, which is a control curve of both from then on.
+//! as a snapshot: fair curves through points of it, which are control curves of both from then on.
+//!
+//! A closed line counts if it bounds what is kept of both surfaces. A line that ends at rims counts if it bounds what is kept
+//! of one: that surface is cut along it. The other one is cut, too, if the line divides it; if not, the line becomes a control
+//! curve inside it, and what was cut of the first stands there. So nothing is ever slit.
+
+mod lines;
+mod ribbon;
 
 use crate::error::ModelError;
 use crate::model::Model;
 use crate::operation::delete::forget_lost_curves;
-use crate::operation::s_loop::draw;
-use crate::operation::{refresh_skeleton, smooth};
+use crate::operation::smooth;
+use crate::relax::Relaxer;
 use crate::shape::SurfaceShape;
-use crate::surgery::following::follow;
-use crate::surgery::joining::{said, say};
 use crate::surgery::opening::{edges_around, open};
 use crate::surgery::pieces::{Banks, settle};
-use crate::surgery::tracing::Stop;
-use ductile_mesh::{CommonLine, FaceId, SourceTag, intersections, nearest_place};
-use ductile_spec::{CurveId, MeetingLine, On, SurfaceId};
-use glam::DVec3;
+use ductile_mesh::{FaceId, SourceTag, nearest_place};
+use ductile_spec::{CurveId, JoinRibbon, On};
+use lines::{Snapshot, snapshots};
+use ribbon::{Fitted, at_angle, hold, hold_between};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// A control point for so much turning of the intersection, in radians: six round a circle.
-const TURNING: f64 = core::f64::consts::FRAC_PI_3;
-/// Fewest and most control points of an intersection.
-const FEWEST: usize = 6;
-const MOST: usize = 24;
+pub(crate) use lines::meeting;
 
 /// Cuts two surfaces along the lines in which they meet, keeps the parts at two places and joins them there.
-pub(super) fn trim(model: &mut Model, first: On, second: On, is_smooth: bool) -> Result<(), ModelError> {
-    let (one, other) = (first.surface, second.surface);
-    if one == other {
-        return Err(ModelError::TrimsItself(one));
-    }
-    if !(first.at.is_finite() && second.at.is_finite()) {
-        return Err(ModelError::BadPosition);
-    }
-    let lines = lines(model, one, other)?;
-    let curves = lines.iter().map(|line| snapshot(model, one, other, line)).collect::<Result<Vec<_>, _>>()?;
-    // A line counts if it bounds what is kept on both surfaces; the others cut nothing off.
-    let bounds = |on: On| -> Result<BTreeSet<CurveId>, ModelError> {
-        let shape = model.surfaces.get(&on.surface).ok_or(ModelError::NoSurface(on.surface))?;
-        let is_in = part_at(shape, on, &curves)?;
-        let around = edges_around(&shape.mesh, &is_in);
-        Ok(around.into_iter().filter_map(|e| shape.mesh.edge_source(e)).map(|tag| CurveId(tag.0)).collect())
+pub(super) fn trim(
+    (model, relaxer): (&mut Model, &Relaxer),
+    kept: [On; 2],
+    is_smooth: bool,
+    ribbon: Option<JoinRibbon>,
+) -> Result<(), ModelError> {
+    let [one, other] = kept.map(|on| on.surface);
+    check(kept, is_smooth, ribbon)?;
+    let fitted = match ribbon {
+        Some(_) => Some([Fitted::new(model, relaxer, one)?, Fitted::new(model, relaxer, other)?]),
+        None => None,
     };
-    let (of_first, of_second) = (bounds(first)?, bounds(second)?);
-    let common: Vec<CurveId> =
-        curves.iter().copied().filter(|c| of_first.contains(c) && of_second.contains(c)).collect();
+    let curves = snapshots(model, one, other)?;
+    let of = [bounding(model, kept[0], &curves)?, bounding(model, kept[1], &curves)?];
+    let counts = |line: &&Snapshot| {
+        let [first, second] = [&of[0], &of[1]].map(|of| of.contains(&line.curve));
+        if line.closed { first && second } else { first || second }
+    };
+    let common: Vec<CurveId> = curves.iter().filter(counts).map(|line| line.curve).collect();
     if common.is_empty() {
         return Err(ModelError::PartsApart(one, other));
     }
-    let before = [one, other].map(|id| model.surfaces.get(&id).map(Arc::clone));
-    for on in [first, second] {
-        let shape = model.surfaces.get(&on.surface).ok_or(ModelError::NoSurface(on.surface))?;
-        let is_in = part_at(shape, on, &common)?;
+    if let Some(stands) = common.iter().find(|curve| !of.iter().all(|of| of.contains(curve)))
+        && (is_smooth || matches!(ribbon, Some(JoinRibbon::Angle(_))))
+    {
+        let on = if of[0].contains(stands) { other } else { one };
+        return Err(ModelError::StandsInside(on));
+    }
+    let mut leaving = Vec::new();
+    if let (Some(fitted), Some(ribbon)) = (&fitted, ribbon) {
+        let parts = [part_of(model, kept[0], &common)?, part_of(model, kept[1], &common)?];
+        for curve in &common {
+            let cross = |k: usize| fitted[k].leaving(model, (&parts[k].0, &parts[k].1), *curve);
+            leaving.push((*curve, at_angle(model, *curve, ribbon, [cross(0)?, cross(1)?])?));
+        }
+    }
+    cut(model, kept, &common)?;
+    for curve in curves.iter().map(|line| line.curve).filter(|curve| !common.contains(curve)) {
+        if model.document.curves.contains_key(&curve) {
+            super::delete::curve(model, curve)?;
+        }
+    }
+    if is_smooth {
+        for curve in &common {
+            smooth::smooth(model, *curve)?;
+        }
+    }
+    for (curve, both) in leaving {
+        if is_smooth {
+            hold_between(model, curve, &both)?;
+            continue;
+        }
+        for ((id, cross), own) in [one, other].into_iter().zip(both).zip(&of) {
+            // What is not cut runs on through the curve.
+            if own.contains(&curve) {
+                hold(model, id, curve, cross)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Refuses what is no trim, whatever the surfaces are.
+fn check(kept: [On; 2], is_smooth: bool, ribbon: Option<JoinRibbon>) -> Result<(), ModelError> {
+    if kept[0].surface == kept[1].surface {
+        return Err(ModelError::TrimsItself(kept[0].surface));
+    }
+    if kept.iter().any(|on| !on.at.is_finite()) {
+        return Err(ModelError::BadPosition);
+    }
+    match ribbon {
+        Some(JoinRibbon::Angle(angle)) if is_smooth || !(angle > 0.0 && angle <= core::f64::consts::PI) => {
+            Err(ModelError::BadJoinAngle)
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Cuts both surfaces along curves that bound what is kept of them, and gives up the rest.
+fn cut(model: &mut Model, kept: [On; 2], common: &[CurveId]) -> Result<(), ModelError> {
+    let before = kept.map(|on| model.surfaces.get(&on.surface).map(Arc::clone));
+    for on in kept {
+        let (shape, is_in) = part_of(model, on, common)?;
         let edges = edges_around(&shape.mesh, &is_in);
+        if edges.is_empty() {
+            continue;
+        }
         let is_gone = is_in.iter().map(|is_in| !is_in).collect();
         let opening = open(model, on.surface, &edges, Some(is_gone))?;
         settle(model, on.surface, opening, Banks::Joint)?;
     }
     // The rims of what was cut off are nobody's any more.
     before.iter().flatten().for_each(|shape| forget_lost_curves(model, shape));
-    for curve in curves.iter().filter(|curve| !common.contains(curve)) {
-        if model.document.curves.contains_key(curve) {
-            super::delete::curve(model, *curve)?;
-        }
-    }
-    if is_smooth {
-        for curve in common {
-            smooth::smooth(model, curve)?;
-        }
-    }
     Ok(())
 }
 
-/// The lines in which two surfaces meet now: what a trim would cut along, and those that it would refuse.
-///
-/// # Errors
-/// [`ModelError`] if there is no such surface, if both are the same or if it cannot be told.
-pub(crate) fn meeting(
-    model: &Model,
-    one: SurfaceId,
-    other: SurfaceId,
-) -> Result<Vec<MeetingLine>, ModelError> {
-    if one == other {
-        return Err(ModelError::TrimsItself(one));
-    }
-    let told = |line: CommonLine| MeetingLine {
-        along: line.points.iter().map(|point| point.position).collect(),
-        closed: line.is_closed,
-    };
-    Ok(common(model, one, other)?.into_iter().map(told).collect())
+/// The curves around the part of a surface at a place.
+fn bounding(model: &Model, on: On, curves: &[Snapshot]) -> Result<BTreeSet<CurveId>, ModelError> {
+    let curves: Vec<CurveId> = curves.iter().map(|line| line.curve).collect();
+    let (shape, is_in) = part_of(model, on, &curves)?;
+    let around = edges_around(&shape.mesh, &is_in);
+    Ok(around.into_iter().filter_map(|e| shape.mesh.edge_source(e)).map(|tag| CurveId(tag.0)).collect())
 }
 
-/// All lines in which two surfaces meet.
-fn common(model: &Model, one: SurfaceId, other: SurfaceId) -> Result<Vec<CommonLine>, ModelError> {
-    let [a, b] = [one, other].map(|id| model.surfaces.get(&id).ok_or(ModelError::NoSurface(id)));
-    let (a, b) = (a?, b?);
-    intersections((&a.mesh, &a.positions), (&b.mesh, &b.positions)).map_err(|why| ModelError::Untold {
-        one,
-        other,
-        why,
-    })
-}
-
-/// The closed lines in which two surfaces meet.
-fn lines(model: &Model, one: SurfaceId, other: SurfaceId) -> Result<Vec<CommonLine>, ModelError> {
-    let lines = common(model, one, other)?;
-    if lines.is_empty() {
-        return Err(ModelError::NoMeeting(one, other));
-    }
-    if lines.iter().any(|line| !line.is_closed) {
-        return Err(ModelError::OpenMeeting(one, other));
-    }
-    Ok(lines)
-}
-
-/// Lays a fair curve through points of a line into both surfaces.
-fn snapshot(
-    model: &mut Model,
-    one: SurfaceId,
-    other: SurfaceId,
-    line: &CommonLine,
-) -> Result<CurveId, ModelError> {
-    let points: Vec<DVec3> = line.points.iter().map(|point| point.position).collect();
-    let stops = samples(&points).into_iter().map(|at| Stop { at, point: None }).collect();
-    let curve = draw(model, one, stops, true)?;
-    let told = said(model, other);
-    follow(model, other, curve)?;
-    refresh_skeleton(model, other);
-    say(model, other, &told);
-    Ok(curve)
-}
-
-/// Points spread evenly along a closed line, as many as its turning asks for.
-fn samples(line: &[DVec3]) -> Vec<DVec3> {
-    let count = line.len();
-    let step = |k: usize| line[(k + 1) % count] - line[k];
-    let total: f64 = (0..count).map(|k| step(k).length()).sum();
-    // The turning of what is left when the mesh's own zigzag is averaged away: chords of a thirtieth of the whole.
-    let coarse: Vec<DVec3> = (0..30).map(|k| along(line, total * f64::from(k) / 30.0)).collect();
-    let chord = |k: usize| (coarse[(k + 1) % 30] - coarse[k % 30]).normalize_or_zero();
-    let turning: f64 = (0..30).map(|k| libm::acos(chord(k).dot(chord(k + 1)).clamp(-1.0, 1.0))).sum();
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive number")]
-    let wanted = (libm::ceil(turning / TURNING - 0.5) as usize).clamp(FEWEST, MOST);
-    (0..wanted).map(|k| along(line, total * k as f64 / wanted as f64)).collect()
-}
-
-/// The place at a distance along a closed line.
-fn along(line: &[DVec3], mut distance: f64) -> DVec3 {
-    for k in 0..line.len() {
-        let (from, to) = (line[k], line[(k + 1) % line.len()]);
-        let length = from.distance(to);
-        if distance <= length && length > 0.0 {
-            return from.lerp(to, distance / length);
-        }
-        distance -= length;
-    }
-    line[0]
+/// A surface, and its part at a place.
+fn part_of(model: &Model, on: On, curves: &[CurveId]) -> Result<(Arc<SurfaceShape>, Vec<bool>), ModelError> {
+    let shape = Arc::clone(model.surfaces.get(&on.surface).ok_or(ModelError::NoSurface(on.surface))?);
+    let is_in = part_at(&shape, on, curves)?;
+    Ok((shape, is_in))
 }
 
 /// The part of a surface at a place, bounded by some curves and rims: by face slot, whether it belongs to it.

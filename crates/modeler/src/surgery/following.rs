@@ -5,22 +5,66 @@
 
 use crate::error::ModelError;
 use crate::model::Model;
+use crate::operation::{insert, insert_there};
 use crate::shadow;
 use crate::shape::{EmbeddedCurve, SurfaceShape, edit};
-use crate::surgery::tracing::{Laid, Stop, trace};
+use crate::surgery::tracing::{Crossing, Laid, MOST_HUBS, Stop, Trace, retrace, rim_near};
 use ductile_mesh::VertexId;
 use ductile_spec::{CurveId, PointId, SurfaceId};
 
 /// Lays a curve into a surface, near to where it runs. The surface is carried to it as it relaxes.
+///
+/// Where the way crosses another curve of the surface, both get a control point in common: a place on the curve that is laid,
+/// to which the other one is carried. An open curve that ends at a rim ends on it.
 pub(crate) fn follow(model: &mut Model, surface: SurfaceId, id: CurveId) -> Result<(), ModelError> {
+    for _ in 0..MOST_HUBS {
+        let stops = stops(model, surface, id)?;
+        let closed = model.curves.get(&id).ok_or(ModelError::NoCurve(id))?.closed;
+        let (trace, crossing) = retrace(model, surface, id, &stops, closed)?;
+        let Some(crossing) = crossing else { return lay(model, surface, id, &trace) };
+        share(model, surface, id, &stops, crossing)?;
+    }
+    Err(ModelError::TooManyHubs(MOST_HUBS))
+}
+
+/// Where a curve is to pass on a surface: through its own points, its ends on a rim if one is near.
+fn stops(model: &Model, surface: SurfaceId, id: CurveId) -> Result<Vec<Stop>, ModelError> {
+    let curve = model.document.curves.get(&id).ok_or(ModelError::NoCurve(id))?;
+    let shape = model.surfaces.get(&surface).ok_or(ModelError::NoSurface(surface))?;
+    let last = curve.through.len() - 1;
+    let stop = |(k, point): (usize, &PointId)| {
+        let at = model.point(*point)?;
+        let is_end = !curve.closed && (k == 0 || k == last);
+        let at = if is_end { rim_near(shape, at).unwrap_or(at) } else { at };
+        Ok(Stop { at, point: Some(*point) })
+    };
+    curve.through.iter().enumerate().map(stop).collect()
+}
+
+/// Gives a curve and one that its way crosses a control point in common.
+fn share(
+    model: &mut Model,
+    surface: SurfaceId,
+    id: CurveId,
+    stops: &[Stop],
+    crossing: Crossing,
+) -> Result<(), ModelError> {
+    let Crossing { other, control, stop, at } = crossing;
+    let is_in_the_way = |_| ModelError::CrossesCurve { curve: id, surface };
+    if control.is_some() || other == id {
+        return Err(is_in_the_way(()));
+    }
+    let point = match stop.and_then(|stop| stops[stop].point) {
+        Some(point) => point,
+        None => insert(model, id, at).map_err(|_| is_in_the_way(()))?,
+    };
+    insert_there(model, other, at, point).map_err(|_| is_in_the_way(()))
+}
+
+/// Lays a curve into a surface along a way that meets nothing but at points in common.
+fn lay(model: &mut Model, surface: SurfaceId, id: CurveId, trace: &Trace) -> Result<(), ModelError> {
     let curve = model.document.curves.get(&id).ok_or(ModelError::NoCurve(id))?;
     let (through, closed) = (curve.through.clone(), curve.closed);
-    let stop = |point: &PointId| Ok(Stop { at: model.point(*point)?, point: Some(*point) });
-    let stops = through.iter().map(stop).collect::<Result<Vec<_>, ModelError>>()?;
-    let trace = trace(model, surface, stops, closed)?;
-    if trace.stops.iter().map(|stop| stop.point).ne(through.iter().map(|point| Some(*point))) {
-        return Err(ModelError::CrossesCurve { curve: id, surface });
-    }
     let shape = edit(model.surfaces.get_mut(&surface).ok_or(ModelError::NoSurface(surface))?);
     let Laid { line: laid, controls } = trace.lay(shape, surface, (id, closed), &through)?;
     let stretches = stretches(&laid, &controls, closed).ok_or(ModelError::TwiceThrough(through[0]))?;

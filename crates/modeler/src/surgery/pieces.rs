@@ -50,9 +50,9 @@ pub(crate) fn settle(
         return Err(ModelError::OneSided(run.curve));
     }
     let twins = if banks == Banks::Apart { copy_points(model, &mut opening) } else { BTreeMap::new() };
-    let followed = match banks {
+    let (followed, parts) = match banks {
         Banks::Joint => divide_joint(model, &opening),
-        Banks::Apart => follow_apart(model, id, &opening)?,
+        Banks::Apart => (follow_apart(model, id, &opening)?, Vec::new()),
     };
     let labels = components(&opening.mesh);
     let mut order: Vec<(usize, usize)> = labels
@@ -88,6 +88,7 @@ pub(crate) fn settle(
     for name in core::iter::once(id).chain(made.iter().copied()) {
         refresh_skeleton(model, name);
     }
+    forget_parts(model, &parts);
     crate::operation::forget_unused_points(model, &before);
     crate::operation::forget_lost_planes(model);
     crate::operation::forget_lost_shadows(model);
@@ -109,9 +110,10 @@ fn copy_points(model: &mut Model, opening: &mut Opening) -> BTreeMap<PointId, Po
     twins
 }
 
-/// All runs follow the curves that they are of; a curve of which some run is only a part is divided at its ends first.
-fn divide_joint(model: &mut Model, opening: &Opening) -> Vec<Followed> {
-    let mut followed = Vec::new();
+/// All runs follow the curves that they are of; a curve of which some run is only a part is divided at its ends first. Gives
+/// the parts, too.
+fn divide_joint(model: &mut Model, opening: &Opening) -> (Vec<Followed>, Vec<CurveId>) {
+    let (mut followed, mut parts) = (Vec::new(), Vec::new());
     let curves: BTreeSet<CurveId> = opening.runs.iter().map(|run| run.curve).collect();
     for id in curves {
         let runs: Vec<&Run> = opening.runs.iter().filter(|run| run.curve == id).collect();
@@ -123,13 +125,14 @@ fn divide_joint(model: &mut Model, opening: &Opening) -> Vec<Followed> {
         let ends: BTreeSet<usize> =
             ends.flat_map(|run| [run.samples[0], run.samples[run.samples.len() - 1]]).collect();
         let pieces = divide(model, id, &ends);
+        parts.extend(pieces.iter().map(|(curve, ..)| *curve));
         for run in runs {
             for (curve, first, last) in &pieces {
                 followed.extend(part_of(run, *first, *last).map(|run| Followed { run, curve: *curve }));
             }
         }
     }
-    followed
+    (followed, parts)
 }
 
 /// The part of a run from one sample to another, if it has it.
@@ -478,6 +481,16 @@ fn forget_curves(model: &mut Model, before: &SurfaceShape, followed: &[Followed]
         if !stays {
             model.document_mut().curves.remove(&id);
             model.curves.remove(&id);
+        }
+    }
+}
+
+/// Parts of divided curves that lay in what was given up go with it.
+fn forget_parts(model: &mut Model, parts: &[CurveId]) {
+    for id in parts {
+        if model.document.surfaces_on(*id).next().is_none() {
+            model.document_mut().curves.remove(id);
+            model.curves.remove(id);
         }
     }
 }

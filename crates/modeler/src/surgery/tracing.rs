@@ -10,12 +10,12 @@ use crate::operation::{insert, kept_position};
 use crate::rehydrate::build_curve;
 use crate::shape::SurfaceShape;
 use crate::surgery::pieces::tag;
-use ductile_mesh::{Mesh, Path, PathError, Place, SourceTag, VertexId, nearest_place};
+use ductile_mesh::{EdgeId, Mesh, Path, PathError, Place, SourceTag, VertexId, nearest_place};
 use ductile_spec::{Curve, CurveId, Document, PointId, SurfaceId};
 use glam::DVec3;
 
 /// Hubs that one curve may need: a path that runs beside another curve for long would make them without end.
-const MOST_HUBS: usize = 64;
+pub(crate) const MOST_HUBS: usize = 64;
 
 /// Nearer than this part of the spacing to a control, that control is meant.
 const TAKEN: f64 = 0.25;
@@ -108,6 +108,68 @@ pub(crate) fn trace(
     Err(ModelError::TooManyHubs(MOST_HUBS))
 }
 
+/// A place where the way of a curve that is there meets another curve of the surface.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Crossing {
+    /// The other curve.
+    pub(crate) other: CurveId,
+    /// Its control point there, if it has one.
+    pub(crate) control: Option<PointId>,
+    /// The stop of the way that lies there, if one does.
+    pub(crate) stop: Option<usize>,
+    /// Where.
+    pub(crate) at: DVec3,
+}
+
+/// Finds the way of a curve that is there, through its own points, and the first place at which it crosses another curve of the
+/// surface without a control point in common. Nothing is changed.
+pub(crate) fn retrace(
+    model: &Model,
+    id: SurfaceId,
+    curve: CurveId,
+    stops: &[Stop],
+    closed: bool,
+) -> Result<(Trace, Option<Crossing>), ModelError> {
+    let (trace, path) = lie(model, id, stops, closed)?;
+    let shape = model.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?;
+    let index_of: Vec<usize> = trace.of_stops.iter().map(|place| path.places[*place]).collect();
+    for meeting in &path.meetings {
+        let stop = index_of.iter().position(|index| *index == meeting.index);
+        let control = control_at(&shape.mesh, meeting.place);
+        if control.is_some() && stop.is_some_and(|stop| stops[stop].point == control) {
+            continue;
+        }
+        let other =
+            curve_at(&shape.mesh, meeting.place).ok_or(ModelError::CrossesCurve { curve, surface: id })?;
+        return Ok((trace, Some(Crossing { other, control, stop, at: meeting.position })));
+    }
+    if pin_on(shape, stops, &path, &index_of).is_some() {
+        return Err(ModelError::CrossesCurve { curve, surface: id });
+    }
+    match touch(shape, &trace, &path, &index_of) {
+        None => Ok((trace, None)),
+        Some((_, at)) => Err(ModelError::TouchesRim { curve, surface: id, at }),
+    }
+}
+
+/// The control point at a place.
+fn control_at(mesh: &Mesh, place: Place) -> Option<PointId> {
+    match place {
+        Place::Vertex(v) => mesh.vertex_source(v).map(|SourceTag(point)| PointId(point)),
+        Place::Edge { .. } | Place::Face { .. } => None,
+    }
+}
+
+/// A curve that runs through a place.
+fn curve_at(mesh: &Mesh, place: Place) -> Option<CurveId> {
+    let source = match place {
+        Place::Edge { edge, .. } => mesh.edge_source(edge),
+        Place::Vertex(v) => mesh.spokes(v).find_map(|e| mesh.edge_source(e)),
+        Place::Face { .. } => None,
+    };
+    source.map(|SourceTag(curve)| CurveId(curve))
+}
+
 /// Stops lie on the surface; one at a control is that control, and one beside a line lies on the line.
 fn settle_stops(model: &Model, id: SurfaceId, stops: &mut [Stop], closed: bool) -> Result<(), ModelError> {
     let shape = model.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?;
@@ -139,8 +201,23 @@ fn settle_stops(model: &Model, id: SurfaceId, stops: &mut [Stop], closed: bool) 
 /// The nearest place on a curve or rim, if one is nearer than a part of the edges there.
 fn on_line(shape: &SurfaceShape, at: DVec3, reach: f64) -> Option<DVec3> {
     let mesh = &shape.mesh;
+    nearest_on(shape, at, reach, |e| mesh.is_source_edge(e) || mesh.is_boundary_edge(e))
+}
+
+/// The place on a rim at which an open curve is meant to end that ends at another one.
+pub(crate) fn rim_near(shape: &SurfaceShape, at: DVec3) -> Option<DVec3> {
+    nearest_on(shape, at, MEANT, |e| shape.mesh.is_boundary_edge(e))
+}
+
+fn nearest_on(
+    shape: &SurfaceShape,
+    at: DVec3,
+    reach: f64,
+    is_meant: impl Fn(EdgeId) -> bool,
+) -> Option<DVec3> {
+    let mesh = &shape.mesh;
     let mut best: Option<(f64, DVec3)> = None;
-    for edge in mesh.edges().filter(|e| mesh.is_source_edge(*e) || mesh.is_boundary_edge(*e)) {
+    for edge in mesh.edges().filter(|e| is_meant(*e)) {
         let [a, b] = mesh.edge_vertices(edge);
         let (p, q) = (shape.positions[a.index()], shape.positions[b.index()]);
         let t = (at - p).dot(q - p) / (q - p).length_squared();
@@ -217,10 +294,7 @@ fn next_hub(model: &mut Model, id: SurfaceId, trace: &Trace, path: &Path) -> Res
     let index_of: Vec<usize> = trace.of_stops.iter().map(|place| path.places[*place]).collect();
     for meeting in &path.meetings {
         let stop = index_of.iter().position(|index| *index == meeting.index);
-        let control = match meeting.place {
-            Place::Vertex(v) => shape.mesh.vertex_source(v).map(|SourceTag(point)| PointId(point)),
-            Place::Edge { .. } | Place::Face { .. } => None,
-        };
+        let control = control_at(&shape.mesh, meeting.place);
         if control.is_some() && stop.is_some_and(|stop| trace.stops[stop].point == control) {
             continue;
         }
@@ -238,9 +312,27 @@ fn next_hub(model: &mut Model, id: SurfaceId, trace: &Trace, path: &Path) -> Res
             }
         }));
     }
+    if let Some((index, point)) = pin_on(shape, &trace.stops, path, &index_of) {
+        let at = Stop { at: model.point(point)?, point: Some(point) };
+        let before = index_of.iter().rposition(|stop| *stop <= index).unwrap_or(0);
+        let stop = index_of.iter().position(|stop| *stop == index);
+        return Ok(Some(stop.map_or(Hub::After(before, at), |stop| Hub::At(stop, at))));
+    }
     let Some((index, at)) = touch(shape, trace, path, &index_of) else { return Ok(None) };
     let before = index_of.iter().rposition(|stop| *stop <= index).unwrap_or(0);
     Ok(Some(Hub::After(before, Stop { at: kept_position(model, at)?, point: None })))
+}
+
+/// The first control point that stands alone on the way, which is none of its stops.
+fn pin_on(shape: &SurfaceShape, stops: &[Stop], path: &Path, index_of: &[usize]) -> Option<(usize, PointId)> {
+    let is_old = |v: VertexId| path.made.iter().all(|(made, _)| *made != v);
+    let alone = path.vertices.iter().enumerate().filter(|(_, v)| is_old(**v));
+    let mut pins = alone.filter_map(|(index, v)| Some((index, PointId(shape.mesh.vertex_source(*v)?.0))));
+    let is_stop = |index: usize, point: PointId| {
+        let stop = index_of.iter().position(|stop| *stop == index);
+        stop.is_some_and(|stop| stops[stop].point == Some(point))
+    };
+    pins.find(|(index, point)| !is_stop(*index, *point))
 }
 
 /// The first place where the way touches a rim without stopping there: a cut along it would end there.
@@ -264,14 +356,7 @@ fn touch(shape: &SurfaceShape, trace: &Trace, path: &Path, index_of: &[usize]) -
 /// Makes a control point on the curve at a place; one that is so near that there is no room for another will do.
 fn hub_on(model: &mut Model, id: SurfaceId, place: Place, at: DVec3) -> Result<PointId, ModelError> {
     let shape = model.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?;
-    let mesh = &shape.mesh;
-    let source = match place {
-        Place::Edge { edge, .. } => mesh.edge_source(edge),
-        Place::Vertex(v) => mesh.spokes(v).find_map(|e| mesh.edge_source(e)),
-        Place::Face { .. } => None,
-    };
-    let SourceTag(curve) = source.ok_or(ModelError::NoSurface(id))?;
-    let curve = CurveId(curve);
+    let curve = curve_at(&shape.mesh, place).ok_or(ModelError::NoSurface(id))?;
     match insert(model, curve, at) {
         Err(ModelError::Occupied) => {
             let through = &model.document.curves.get(&curve).ok_or(ModelError::NoCurve(curve))?.through;

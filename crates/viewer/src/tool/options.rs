@@ -1,7 +1,7 @@
 //! How the tools that make and join things do it: choices that stay from one use to the next.
 
 use super::ToolKind;
-use ductile_spec::{CageForm, FillStyle};
+use ductile_spec::{CageForm, FillStyle, JoinRibbon};
 
 /// The choices.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,6 +12,10 @@ pub struct Options {
     pub skirt: bool,
     /// Trim: smooth where the surfaces join, instead of a crease.
     pub smooth: bool,
+    /// Trim: the surfaces are held to the directions in which they leave the join.
+    pub ribbon: bool,
+    /// Trim: the angle between the surfaces in degrees, where a ribbon holds it; as they meet while nobody chose.
+    pub angle: Option<f64>,
     /// Merge: the rims of the tube stay as control curves.
     pub keep: bool,
     /// Merge: radius of the tube in model units; what suits the model while nobody chose.
@@ -34,6 +38,8 @@ impl Default for Options {
             reversed: false,
             skirt: true,
             smooth: false,
+            ribbon: false,
+            angle: None,
             keep: true,
             radius: None,
             form: CageForm::default(),
@@ -54,13 +60,15 @@ pub enum Toggle {
     Skirt,
     /// [`Options::smooth`].
     Smooth,
+    /// [`Options::ribbon`].
+    Ribbon,
     /// [`Options::keep`].
     Keep,
 }
 
 impl Toggle {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::Reversed, Self::Skirt, Self::Smooth, Self::Keep];
+    pub const ALL: [Self; 5] = [Self::Reversed, Self::Skirt, Self::Smooth, Self::Ribbon, Self::Keep];
 
     /// Its word in the page: `option-skirt` is its button.
     #[must_use]
@@ -69,6 +77,7 @@ impl Toggle {
             Self::Reversed => "reversed",
             Self::Skirt => "skirt",
             Self::Smooth => "smooth",
+            Self::Ribbon => "ribbon",
             Self::Keep => "keep",
         }
     }
@@ -77,6 +86,7 @@ impl Toggle {
     #[must_use]
     pub fn of_key(kind: ToolKind, key: &str) -> Option<Self> {
         let toggle = match key {
+            "r" if kind == ToolKind::Trim => Self::Ribbon,
             "r" => Self::Reversed,
             "s" if kind == ToolKind::Glue => Self::Skirt,
             "s" => Self::Smooth,
@@ -92,7 +102,7 @@ impl Toggle {
         match self {
             Self::Reversed => matches!(kind, ToolKind::Sweep | ToolKind::Glue),
             Self::Skirt => kind == ToolKind::Glue,
-            Self::Smooth => kind == ToolKind::Trim,
+            Self::Smooth | Self::Ribbon => kind == ToolKind::Trim,
             Self::Keep => kind == ToolKind::Merge,
         }
     }
@@ -106,8 +116,16 @@ impl Options {
             Toggle::Reversed => self.reversed,
             Toggle::Skirt => self.skirt,
             Toggle::Smooth => self.smooth,
+            Toggle::Ribbon => self.ribbon,
             Toggle::Keep => self.keep,
         }
+    }
+
+    /// How a trim holds both surfaces where it joins them. Joined smoothly they have no angle.
+    #[must_use]
+    pub fn join_ribbon(&self) -> Option<JoinRibbon> {
+        let angle = self.angle.filter(|_| !self.smooth);
+        self.ribbon.then(|| angle.map_or(JoinRibbon::AsMet, |angle| JoinRibbon::Angle(angle.to_radians())))
     }
 
     /// Turns a choice.
@@ -116,6 +134,7 @@ impl Options {
             Toggle::Reversed => &mut self.reversed,
             Toggle::Skirt => &mut self.skirt,
             Toggle::Smooth => &mut self.smooth,
+            Toggle::Ribbon => &mut self.ribbon,
             Toggle::Keep => &mut self.keep,
         };
         *choice = !*choice;

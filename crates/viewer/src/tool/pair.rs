@@ -28,7 +28,7 @@ impl Toolbox {
             }
             (ToolKind::Trim, false) => "Click the part of the first surface that should stay.",
             (ToolKind::Trim, true) => {
-                "Now click the part of the second surface that should stay. S: smooth where they join, or a crease."
+                "Now click the part of the second surface that should stay. S: smooth where they join, or a crease. R: a ribbon holds the join."
             }
             (ToolKind::Shadow, false) => {
                 "Click the region that should take on the relief of another surface."
@@ -124,8 +124,8 @@ impl Toolbox {
             }
             Some(first) => {
                 self.conclude();
-                let smooth = self.options.smooth;
-                vec![Act::Edit(Edit::Trim { first: first.on(), second: second.on(), smooth })]
+                let (smooth, ribbon) = (self.options.smooth, self.options.join_ribbon());
+                vec![Act::Edit(Edit::Trim { first: first.on(), second: second.on(), smooth, ribbon })]
             }
         }
     }

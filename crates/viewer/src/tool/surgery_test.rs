@@ -2,8 +2,8 @@
 
 use super::*;
 use ductile_spec::{
-    Border, Curve, CurveRole, Embedding, Extent, PointRole, Skeleton, SkeletonVertex, Surface, SurfaceSpan,
-    SurfaceSummary,
+    Border, Curve, CurveRole, Embedding, Extent, JoinRibbon, PointRole, Skeleton, SkeletonVertex, Surface,
+    SurfaceSpan, SurfaceSummary,
 };
 use glam::DVec3;
 #[cfg(target_arch = "wasm32")]
@@ -237,8 +237,19 @@ fn trim_wants_two_surfaces() {
     click(&mut tools, on(1, 0.0));
     assert!(refuses(&click(&mut tools, on(1, 2.0))));
     tools.options_mut().turn(Toggle::Smooth);
-    let edit = Edit::Trim { first: place(1, 0.0), second: place(2, 3.0), smooth: true };
+    let edit = Edit::Trim { first: place(1, 0.0), second: place(2, 3.0), smooth: true, ribbon: None };
     assert_eq!(click(&mut tools, on(2, 3.0)), [Act::Edit(edit)]);
+}
+
+#[test]
+fn a_trim_has_a_ribbon_with_an_angle_where_it_is_no_smooth_one() {
+    let mut options = Options { angle: Some(90.0), ..Options::default() };
+    assert_eq!(options.join_ribbon(), None);
+    options.turn(Toggle::of_key(ToolKind::Trim, "r").unwrap());
+    assert_eq!(options.join_ribbon(), Some(JoinRibbon::Angle(core::f64::consts::FRAC_PI_2)));
+    options.turn(Toggle::Smooth);
+    assert_eq!(options.join_ribbon(), Some(JoinRibbon::AsMet));
+    assert_eq!(Toggle::of_key(ToolKind::Sweep, "r"), Some(Toggle::Reversed));
 }
 
 #[test]

@@ -44,6 +44,7 @@ pub(crate) fn listen() {
     on_field(ribbon::FIELD, Page::typed_ribbon);
     on_field(extent::FIELD, Page::typed_loop_radius);
     on_field(options::FIELD, Page::typed_tube_radius);
+    on_field(options::ANGLE, Page::typed_join_angle);
     for id in cage::FIELDS {
         on_field(id, move |page, text| page.typed_cage(id, text));
     }
@@ -101,7 +102,14 @@ impl Page {
             .chain(cage::FIELDS)
             .chain(displace::FIELDS)
             .chain(shadow::FIELDS)
-            .chain([ribbon::FIELD, extent::FIELD, options::FIELD, displace::RANGE, fill::RESOLUTION])
+            .chain([
+                ribbon::FIELD,
+                extent::FIELD,
+                options::FIELD,
+                options::ANGLE,
+                displace::RANGE,
+                fill::RESOLUTION,
+            ])
         {
             self.fill_field(&dom::element_as(id), false);
         }
@@ -129,6 +137,7 @@ impl Page {
             }
             (field, _) if legend::FIELDS.contains(&field) => self.legend_text(field),
             (options::FIELD, _) => self.tube_radius_text(),
+            (options::ANGLE, _) => self.join_angle_text(),
             (fill::RESOLUTION, _) => self.fill_resolution_text(),
             (displace::RANGE, _) => number::show(self.tools.options().range),
             (field, _) if displace::FIELDS.contains(&field) => self.displacement_text(field),

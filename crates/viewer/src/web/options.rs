@@ -1,4 +1,4 @@
-//! The strip beside the hint: the choices of the tool in hand, and the radius of a tube.
+//! The strip beside the hint: the choices of the tool in hand, the radius of a tube, and the angle of a join.
 
 use super::dom;
 use super::page::Page;
@@ -9,6 +9,8 @@ use glam::Vec2;
 
 /// The field of the radius in index.html.
 pub(crate) const FIELD: &str = "tube-radius";
+/// The field of the angle at which a trim joins.
+pub(crate) const ANGLE: &str = "join-angle";
 
 /// Growth of the radius per pixel of the wheel: a notch is a tenth.
 const WHEEL_GROWTH: f32 = 0.001;
@@ -21,6 +23,8 @@ impl Page {
         let kind = self.tools.kind();
         let mut any = matches!(kind, ToolKind::Merge | ToolKind::Displace | ToolKind::Fill);
         dom::show(&dom::element("tube"), kind == ToolKind::Merge);
+        let has_angle = self.tools.options().ribbon && !self.tools.options().smooth;
+        dom::show(&dom::element("join"), kind == ToolKind::Trim && has_angle);
         dom::show(&dom::element("reach"), kind == ToolKind::Displace);
         self.show_fill_option();
         any |= self.show_cage_option();
@@ -55,6 +59,26 @@ impl Page {
 
     pub(crate) fn tube_radius_text(&self) -> String {
         number::show(self.tube_radius())
+    }
+
+    pub(crate) fn join_angle_text(&self) -> String {
+        self.tools.options().angle.map(number::show).unwrap_or_default()
+    }
+
+    /// Takes the angle that was typed; says what is wrong with it.
+    pub(crate) fn typed_join_angle(&mut self, text: &str) -> Option<String> {
+        let angle = if text.trim().is_empty() {
+            None
+        } else {
+            match number::parse(text.trim().trim_end_matches('°')) {
+                Ok(value) if value > 0.0 && value <= 180.0 => Some(value),
+                Ok(_) => return Some("The angle of a join is above 0 and at most 180 degrees.".to_owned()),
+                Err(error) => return Some(error.to_string()),
+            }
+        };
+        self.tools.options_mut().angle = angle;
+        self.refresh();
+        None
     }
 
     /// The wheel changes the radius while the end of a tube is chosen; says whether it did.
