@@ -4,10 +4,11 @@
 
 use acceptance::Bench;
 use ductile_spec::{
-    Cage, CurveId, Document, Edit, Example, GrabTarget, Leave, Objective, ObjectiveOf, PointId, Request,
-    Ribbon, SpacingOf, SurfaceId, from_text, to_text,
+    Cage, CurveId, Document, Edit, Example, GrabTarget, Handle, Leave, Objective, ObjectiveOf, PointId,
+    Request, Ribbon, SpacingOf, SurfaceId, from_text, to_text,
 };
 use glam::{DVec3, dvec3};
+use std::collections::BTreeSet;
 use std::f64::consts::{FRAC_PI_4, PI};
 
 const SURFACE: SurfaceId = SurfaceId(1);
@@ -152,6 +153,128 @@ fn a_normal_tilts_the_top_of_a_raised_disc_and_can_be_set_free() {
 
 fn document_of(text: &str) -> Document {
     from_text(text).unwrap()
+}
+
+/// Largest distance of vertices from where they were.
+fn moved(bench: &Bench, before: &[DVec3]) -> f64 {
+    places(bench).iter().zip(before).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
+}
+
+#[test]
+fn a_ribbon_as_the_surface_leaves_its_rim_now_keeps_the_shape_and_what_is_given() {
+    let mut bench = Bench::with(Example::RaisedDisc);
+    bench.rest(600);
+    let (before, calm) = (bench.document.clone(), places(&bench));
+    let now = Edit::Ribbon { surface: SURFACE, curve: RIM, leave: Some(Leave::Now) };
+    bench.edit(now.clone());
+    bench.rest(600);
+    let document = bench.document();
+    let cross = document.surfaces[&SURFACE].ribbons[&RIM].cross.clone();
+    assert!(cross.keys().copied().eq(document.curves[&RIM].through.iter().copied().collect::<BTreeSet<_>>()));
+    for (point, direction) in &cross {
+        let inwards = -document.points[point].normalize_or_zero();
+        assert!(direction.dot(inwards) > 0.5 && (direction.length() - 1.0).abs() < 1e-6, "{direction}");
+    }
+    // Between the points the plane is carried, not kept.
+    println!("moved by {}", moved(&bench, &calm));
+    assert!(moved(&bench, &calm) < 0.02, "{}", moved(&bench, &calm));
+    bench.accept(Request::Undo);
+    assert_eq!(bench.document, before);
+    // A direction that is given stays; the others come beside it.
+    let (point, given) = (*cross.keys().next_back().unwrap(), DVec3::Z);
+    let leave = Some(Leave::Cross([(point, given)].into()));
+    bench.edit(Edit::Ribbon { surface: SURFACE, curve: RIM, leave });
+    bench.edit(now);
+    let ribbon = &bench.document().surfaces[&SURFACE].ribbons[&RIM];
+    assert_eq!((ribbon.cross.len(), ribbon.cross[&point]), (cross.len(), given));
+}
+
+/// Drags a handle so many steps towards a direction; the hand sometimes says nothing.
+fn turn(bench: &mut Bench, handle: Handle, foot: DVec3, from: DVec3, to: DVec3, steps: u32) {
+    bench.accept(Request::Grab(GrabTarget::Handle(handle)));
+    for step in 1..=steps {
+        bench.step(Some(foot + from.lerp(to, f64::from(step) / f64::from(steps)) * 0.4));
+        for nothing in [DVec3::NAN, foot, foot + DVec3::X * 1e-12] {
+            bench.step(Some(nothing));
+        }
+    }
+}
+
+#[test]
+fn handles_turn_a_ribbon_and_a_normal_in_one_act_and_cancel_puts_them_back() {
+    let mut bench = Bench::with(Example::RaisedDisc);
+    bench.rest(600);
+    let (top, rim) = (PointId(5), bench.document().curves[&RIM].through[0]);
+    bench.edit(Edit::Ribbon { surface: SURFACE, curve: RIM, leave: Some(Leave::Now) });
+    bench.edit(Edit::Normal { surface: SURFACE, point: top, normal: Some(DVec3::Z) });
+    bench.rest(600);
+    let points = bench.document().points.clone();
+    let ribbon = Handle::Ribbon { surface: SURFACE, curve: RIM, point: rim };
+    let normal = Handle::Normal { surface: SURFACE, point: top };
+    let along = dvec3(-points[&rim].y, points[&rim].x, 0.0).normalize_or_zero();
+    for (handle, point, act, to) in [
+        // What of the hand's direction runs along the rim does not count.
+        (ribbon, rim, "Ribbon", DVec3::Z - points[&rim] * 0.3 + along * 0.4),
+        (normal, top, "Normal", dvec3(0.6, 0.1, 1.0)),
+    ] {
+        let prescribed = |bench: &Bench| {
+            let surface = bench.document().surfaces[&SURFACE].clone();
+            if handle == ribbon { surface.ribbons[&RIM].cross[&point] } else { surface.normals[&point] }
+        };
+        let (before, shape, from) = (bench.document.clone(), places(&bench), prescribed(&bench));
+        turn(&mut bench, handle, points[&point], from, to, 12);
+        assert_eq!(bench.document, before, "a drag in progress is not committed");
+        assert!(moved(&bench, &shape) > 1e-3, "{act}: the surface follows the hand");
+        bench.accept(Request::Cancel);
+        assert_eq!(
+            (bench.modeler.model().document.as_ref(), places(&bench)),
+            (&bench.document(), shape.clone())
+        );
+        turn(&mut bench, handle, points[&point], from, to, 12);
+        assert_eq!(bench.accept(Request::Drop).committed.unwrap().act, act);
+        bench.rest(600);
+        let wanted = if handle == ribbon { to - along * to.dot(along) } else { to };
+        let kept = prescribed(&bench);
+        assert!(kept.angle_between(wanted) < 0.02, "{act}: {kept} for {wanted}");
+        assert!((kept.length() - 1.0).abs() < 1e-3);
+        assert_eq!(from_text(&to_text(&bench.document())).unwrap(), bench.document());
+        // The surface has that plane there.
+        let model = bench.modeler.model();
+        let bound = bench.modeler.relaxer().surface(SURFACE, &model.surfaces[&SURFACE]).unwrap();
+        let positions = &model.surfaces[&SURFACE].positions;
+        let near = bound.vertices().iter().zip(bound.normals());
+        let (_, plane) = near
+            .min_by(|a, b| {
+                let off = |v: ductile_mesh::VertexId| positions[v.index()].distance(points[&point]);
+                off(*a.0).total_cmp(&off(*b.0))
+            })
+            .unwrap();
+        let angle = if handle == ribbon { plane.dot(kept) } else { plane.cross(kept).length() };
+        assert!(angle.abs() < 1e-3, "{act}: {plane} and {kept}");
+        // The whole drag is one act, and a press without a turn is none.
+        bench.accept(Request::Undo);
+        assert_eq!((bench.document.clone(), places(&bench)), (before.clone(), shape));
+        turn(&mut bench, handle, points[&point], from, to, 0);
+        assert!(bench.accept(Request::Drop).committed.is_none());
+        assert_eq!(bench.document, before);
+    }
+}
+
+#[test]
+fn handles_of_what_is_not_prescribed_are_refused() {
+    let mut bench = Bench::with(Example::RaisedDisc);
+    bench.rest(600);
+    let (top, rim) = (PointId(5), bench.document().curves[&RIM].through[0]);
+    bench.edit(Edit::Ribbon { surface: SURFACE, curve: RIM, leave: Some(Leave::Now) });
+    for (handle, reason) in [
+        (Handle::Normal { surface: SURFACE, point: top }, "no direction is prescribed"),
+        (Handle::Normal { surface: SurfaceId(9), point: top }, "does not exist"),
+        (Handle::Ribbon { surface: SURFACE, curve: CurveId(7), point: rim }, "no direction is prescribed"),
+        (Handle::Ribbon { surface: SURFACE, curve: RIM, point: top }, "no direction is prescribed"),
+    ] {
+        let refused = bench.send(Request::Grab(GrabTarget::Handle(handle))).refused.unwrap();
+        assert!(refused.reason.contains(reason), "{}", refused.reason);
+    }
 }
 
 #[test]

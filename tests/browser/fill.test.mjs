@@ -35,9 +35,9 @@ test("a loop is shown under the pointer and filled by a click; how it is filled 
     // The same loop is filled already: the hint says so before a click, and a click changes nothing.
     await page.mouse.move(...middle(opened, 5));
     await untilInspect(page, ({ hover }) => hover === "curve 5");
-    await until(page, () => /curve 5 lies on no loop/.test(document.getElementById("hint").textContent), undefined, { timeout: 5000 });
+    await until(page, () => /^The loop at curve 5 is filled already\.$/.test(document.getElementById("hint").textContent), undefined, { timeout: 5000 });
     await page.mouse.click(...middle(opened, 5));
-    const refused = await untilInspect(page, ({ toast }) => toast?.startsWith("Fill: curve 5"));
+    const refused = await untilInspect(page, ({ toast }) => toast?.startsWith("Fill: the loop at curve 5"));
     assert.equal(refused.document, filled.document);
     await page.keyboard.press("Escape");
     await untilInspect(page, ({ tool }) => tool === "shape");

@@ -60,3 +60,43 @@ test("a disc takes on the relief of a dome, and strength, turn and undo are what
     assert.ok(await documentOf(page));
   });
 });
+
+test("a stamp with a hole leaves the region as it is and says why; without the hole the shadow comes back by itself", async () => {
+  await withDocument(discAndDome, async (page, before) => {
+    const [disc, dome] = [middle(before), point(before, 9).screen];
+    await page.keyboard.press("o");
+    await untilInspect(page, ({ tool }) => tool === "shadow");
+    await page.mouse.click(...disc);
+    await untilInspect(page, ({ underWay }) => underWay);
+    await page.mouse.click(...dome);
+    const stamped = await atRest(page, ({ act }) => act === "Shadow");
+
+    // A curve round the summit of the dome, and what is inside of it burnt out.
+    await page.keyboard.press("d");
+    await untilInspect(page, ({ tool }) => tool === "draw");
+    const ring = [[26, 0], [0, -12], [-26, 0], [0, 18]].map(([x, y]) => [dome[0] + x, dome[1] + 14 + y]);
+    for (const [index, place] of ring.entries()) {
+      await page.mouse.click(...place);
+      await untilInspect(page, ({ corners }) => corners === index + 1);
+    }
+    await page.mouse.click(...ring[0]);
+    const drawn = await atRest(page, ({ act }) => act === "Draw");
+    await page.keyboard.press("b");
+    await untilInspect(page, ({ tool }) => tool === "burnout");
+    await page.mouse.click(dome[0] + 8, dome[1] + 14);
+    const burnt = await atRest(page, ({ act }) => act === "Burn out");
+    assert.equal(burnt.surfaces.find(({ id }) => id === 2).summary.boundaries, 2);
+    assert.deepEqual(shadowOf(burnt), shadowOf(stamped), "the document keeps the shadow");
+
+    await page.keyboard.press("v");
+    await page.mouse.click(disc[0] + 30, disc[1] + 5);
+    const said = () => page.locator("#shadow-trouble").textContent();
+    await page.locator("#shadow-trouble").waitFor({ state: "visible" });
+    assert.match(await said(), /^It does not show: the stamp does not suit, it has 2 rims .* It comes back by itself when that is mended\.$/);
+    if (process.env.PICTURES) await page.screenshot({ path: `${process.env.PICTURES}/shadow-trouble.png` });
+    await page.keyboard.press("Control+z");
+    await atRest(page, (state) => state.document === drawn.document);
+    await page.locator("#shadow-trouble").waitFor({ state: "hidden" });
+    assert.equal(await page.locator("#shadow-title").textContent(), "Shadow of surface 2");
+  });
+});

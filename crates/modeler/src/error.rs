@@ -135,6 +135,9 @@ pub enum ModelError {
         /// Why not.
         reason: FillError,
     },
+    /// All loops along a curve are filled.
+    #[error("the loop at {0} is filled already")]
+    LoopFilled(CurveId),
     /// A curve lies on no loop.
     #[error(
         "{0} lies on no loop that could be filled: curves must meet at control points, three sides or more"
@@ -313,6 +316,14 @@ pub enum ModelError {
     /// Two curves of the surface cross there.
     #[error("{surface}: curves cross at {point}, so their tangents are its plane there; turn those")]
     PlaneGiven {
+        /// The surface.
+        surface: SurfaceId,
+        /// The point.
+        point: PointId,
+    },
+    /// A handle of a surface turns only what is prescribed.
+    #[error("{surface}: no direction is prescribed at {point} that could be turned")]
+    NotPrescribed {
         /// The surface.
         surface: SurfaceId,
         /// The point.

@@ -31,10 +31,13 @@ impl Frame {
         let mut key = key(model);
         let overlays = displacer.overlays().map(|(id, overlay)| (id.0, overlay.revision));
         key.extend(overlays);
-        let changed = key != self.key || self.structure.version == 0;
+        let failed_shadows = displacer.failed_shadows();
+        let has_other_failures = failed_shadows != self.structure.failed_shadows;
+        let changed = key != self.key || has_other_failures || self.structure.version == 0;
         if changed {
             self.key = key;
             self.restructure(model, relaxer, displacer);
+            self.structure.failed_shadows = failed_shadows;
         }
         self.floats.clear();
         for (id, shape) in &model.surfaces {

@@ -6,6 +6,7 @@
 //! cut to a reach, and in the end the position is rounded to what a document keeps.
 
 use crate::error::ModelError;
+use crate::handle::{self, direction};
 use crate::model::Model;
 use crate::operation::{insert, kept_position, pin};
 use crate::patch::caged;
@@ -76,12 +77,7 @@ impl Grab {
             GrabTarget::Edge { .. } | GrabTarget::Face { .. } => {
                 group.first().map(|(point, _)| *point).ok_or(ModelError::NothingHeld)?
             }
-            GrabTarget::Handle(Handle::Tangent { curve, point }) => {
-                let through = model.document.curves.get(&curve).map(|curve| &curve.through);
-                let is_on = through.ok_or(ModelError::NoCurve(curve))?.contains(&point);
-                model.point(point).ok().filter(|_| is_on).ok_or(ModelError::NotOnCurve { curve, point })?;
-                point
-            }
+            GrabTarget::Handle(handle) => handle::foot(model, handle)?,
         };
         let is_new = matches!(target, GrabTarget::Curve { .. } | GrabTarget::Surface { .. });
         let handle = if let GrabTarget::Handle(handle) = target { Some(handle) } else { None };
@@ -187,10 +183,11 @@ impl Grab {
     fn turn(&mut self, model: &mut Model, handle: Handle, to: DVec3) -> Option<f64> {
         let arm = to - model.document.points.get(&self.point)?;
         let unit = arm.try_normalize().filter(|_| arm.length() > LEAST_ARM * self.reach)?;
+        let unit = handle::possible(model, handle, unit)?;
         let before = direction(model, handle).map_or(DVec3::ZERO, DVec3::normalize_or_zero);
         let moved = (unit - before).length() * self.reach / REACH;
         if moved > 0.0 {
-            point_to(model, handle, unit);
+            handle::point_to(model, handle, unit);
             self.has_moved = true;
             (self.still, self.is_home_again) = (0, false);
         }
@@ -201,9 +198,9 @@ impl Grab {
     pub(crate) fn finish(&self, model: &mut Model) -> Result<&'static str, ModelError> {
         if let Some(handle) = self.handle {
             let unit = direction(model, handle).unwrap_or(DVec3::X);
-            point_to(model, handle, (unit * DIRECTION_PARTS).round() / DIRECTION_PARTS);
+            handle::point_to(model, handle, (unit * DIRECTION_PARTS).round() / DIRECTION_PARTS);
             model.document.validate()?;
-            return Ok("Tangent");
+            return Ok(handle::act(handle));
         }
         let one = [(self.point, DVec3::ZERO)];
         for (point, _) in if self.group.is_empty() { &one[..] } else { &self.group } {
@@ -243,20 +240,6 @@ fn group(model: &Model, target: &GrabTarget) -> Result<(Vec<(PointId, DVec3)>, D
     }
     let place = |point: PointId| Ok((point, model.point(point)?));
     Ok((points.into_iter().map(place).collect::<Result<_, ModelError>>()?, at))
-}
-
-/// The direction that a document prescribes, as far as it does.
-fn direction(model: &Model, handle: Handle) -> Option<DVec3> {
-    let Handle::Tangent { curve, point } = handle;
-    model.document.curves.get(&curve)?.tangents.get(&point).copied()
-}
-
-/// Prescribes a direction.
-fn point_to(model: &mut Model, handle: Handle, direction: DVec3) {
-    let Handle::Tangent { curve, point } = handle;
-    if let Some(curve) = model.document_mut().curves.get_mut(&curve) {
-        curve.tangents.insert(point, direction);
-    }
 }
 
 #[cfg(test)]

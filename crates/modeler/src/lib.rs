@@ -12,6 +12,7 @@ mod error;
 mod example;
 mod frame;
 mod grab;
+mod handle;
 mod history;
 mod maintain;
 mod model;

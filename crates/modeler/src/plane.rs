@@ -147,6 +147,33 @@ impl Planes<'_> {
         if after(at_b, corner) == Some(a) || after(at_b, a) != Some(corner) { 1.0 } else { -1.0 }
     }
 
+    /// The directions in which the surface leaves a curve now, by control point; none where curves cross, since their tangents
+    /// are the plane there.
+    pub(crate) fn left_now(
+        &self,
+        id: SurfaceId,
+        curve: CurveId,
+    ) -> Result<BTreeMap<PointId, DVec3>, ModelError> {
+        let embedded = self.shape.embeddings.iter().find(|embedded| embedded.curve == curve);
+        let (Some(embedded), Some(shape)) = (embedded, self.model.curves.get(&curve)) else {
+            return Err(ModelError::NotInSurface { surface: id, curve });
+        };
+        let (turned, crossings) = (self.along(embedded, shape), self.crossings());
+        let mut cross = BTreeMap::new();
+        for (sample, point) in &shape.controls {
+            let place = *sample as usize;
+            let (Some(v), Some(Some(along))) = (embedded.vertices.get(place), turned.get(place)) else {
+                continue;
+            };
+            let node = self.node(*v);
+            let normal = self.normals.get(node as usize).filter(|_| !crossings.contains(&node));
+            if let Some(direction) = normal.and_then(|normal| unit(normal.cross(*along))) {
+                cross.insert(*point, direction);
+            }
+        }
+        Ok(cross)
+    }
+
     /// The directions of a ribbon that leaves a curve at an angle from the curve's plane, by control point.
     pub(crate) fn leaving(
         &self,
@@ -182,6 +209,13 @@ impl Planes<'_> {
         }
         Ok(cross)
     }
+}
+
+/// What of a direction is across a curve at one of its control points, as a unit vector; none if it runs along the curve.
+pub(crate) fn across_at(model: &Model, curve: CurveId, point: PointId, direction: DVec3) -> Option<DVec3> {
+    let shape = model.curves.get(&curve)?;
+    let sample = shape.sample_of(point)?;
+    across(direction, tangents(&model.document, curve, shape)[sample])
 }
 
 /// Refuses a normal that says nothing, because the curves through its point leave it no choice.

@@ -438,6 +438,8 @@ pub enum Leave {
     /// At an angle in radians from the plane in which the curve lies (as nearly as it lies in one): 0 goes on inside
     /// the curve, in that plane, a positive one rises to the side of the surface's normal. Between -π and π.
     Angle(f64),
+    /// As it does at the moment, at each of the curve's points that has no direction yet.
+    Now,
     /// In these directions, by control point.
     Cross(BTreeMap<PointId, DVec3>),
     /// So that it goes on smoothly from an exact surface that ends at the curve.
@@ -555,6 +557,22 @@ pub enum Handle {
         /// Which curve.
         curve: CurveId,
         /// Where on it.
+        point: PointId,
+    },
+    /// The prescribed normal of a surface at one of its control points.
+    Normal {
+        /// Which surface.
+        surface: SurfaceId,
+        /// Where in it.
+        point: PointId,
+    },
+    /// The prescribed direction in which a surface leaves a curve at one of the curve's control points.
+    Ribbon {
+        /// Which surface.
+        surface: SurfaceId,
+        /// Which curve in it.
+        curve: CurveId,
+        /// Where on the curve.
         point: PointId,
     },
 }

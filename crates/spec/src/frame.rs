@@ -75,6 +75,19 @@ pub struct Structure {
     pub nets: Vec<Net>,
     /// The feet of displacements, in order of surface and number.
     pub feet: Vec<FootEntry>,
+    /// The shadows that do not show at the moment, in order of surface.
+    pub failed_shadows: Vec<FailedShadow>,
+}
+
+/// A shadow that does not show: its region or its stamp is no disc at the moment.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FailedShadow {
+    /// Of which surface a region shadows.
+    pub surface: SurfaceId,
+    /// What it shadows.
+    pub shadow: Shadow,
+    /// Why nothing of it shows, in words for the designer.
+    pub why: String,
 }
 
 /// A foot of a displacement.

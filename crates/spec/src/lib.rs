@@ -45,8 +45,9 @@ pub use fill::{
 };
 pub use fixed_mesh::{FixedMesh, MOST_MESH_TRIANGLES, MOST_MESH_VERTICES, MeshSource};
 pub use frame::{
-    CurveRole, CurveSpan, Figures, FootEntry, FrameHeader, NO_REGION, Net, PointEntry, PointRole,
-    RegionEntry, Structure, SurfaceKind, SurfaceSpan, SurfaceSummary, VERTEX_FLOATS, vertex_layout,
+    CurveRole, CurveSpan, FailedShadow, Figures, FootEntry, FrameHeader, NO_REGION, Net, PointEntry,
+    PointRole, RegionEntry, Structure, SurfaceKind, SurfaceSpan, SurfaceSummary, VERTEX_FLOATS,
+    vertex_layout,
 };
 pub use id::{CurveId, PointId, SurfaceId};
 pub use protocol::{

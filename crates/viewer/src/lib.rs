@@ -34,6 +34,7 @@ pub mod schedule;
 #[cfg(test)]
 mod shader_test;
 mod skeleton;
+mod strip;
 mod surface_pass;
 mod theme;
 pub mod tool;
@@ -55,3 +56,4 @@ pub use reaching::Reaching;
 pub use reporting::Reporting;
 pub use rim::{RimHit, Rims};
 pub use scene::{Scene, SceneError};
+pub use strip::{Strip, StripCourse};

@@ -2,6 +2,7 @@
 
 use crate::camera::View;
 use crate::pick::Hit;
+use crate::strip::Strip;
 use ductile_spec::{CurveId, PointId, SurfaceId};
 use glam::Vec3;
 
@@ -150,6 +151,8 @@ pub struct Highlight {
     pub tinted: Vec<Tinted>,
     /// Rims that a tool is about to join: closed polylines in the colour of boundaries.
     pub rims: Vec<Vec<Vec3>>,
+    /// Tangent strips: how surfaces leave curves.
+    pub strips: Vec<Strip>,
     /// Lines that show what a tool would make.
     pub sketch: Vec<Vec<Vec3>>,
     /// Edges and faces of cages: a face by its corners, an edge by its ends.

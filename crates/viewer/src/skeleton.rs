@@ -6,6 +6,7 @@ use crate::layer::{Marks, length};
 use crate::look::Highlight;
 use crate::pick::Hit;
 use crate::scene::Scene;
+use crate::strip::Strip;
 use crate::theme::Theme;
 use crate::uniforms::{Dot, Segment, Style};
 use ductile_spec::{CurveRole, CurveSpan, PointEntry, PointId};
@@ -31,6 +32,10 @@ const POINT: f32 = 4.6;
 const HANDLE: f32 = 5.2;
 /// Opacity of a handle where a surface hides it.
 const HANDLE_HIDDEN: f32 = 0.75;
+/// Opacity of the rungs of a tangent strip and of its outer edge, and what of it is left where a surface hides them.
+const STRIP_RUNG: f32 = 0.55;
+const STRIP_EDGE: f32 = 0.85;
+const STRIP_HIDDEN: f32 = 0.4;
 /// Width of the thin outline of a point.
 const HALO: f32 = 1.4;
 /// Width of the outline of what is selected.
@@ -184,9 +189,28 @@ pub(crate) fn add_highlight(marks: &mut Marks, camera: &Camera, highlight: &High
     for at in &highlight.ghost {
         marks.add_dot(*at, ghost(theme));
     }
+    for strip in &highlight.strips {
+        add_strip(marks, strip, theme);
+    }
     for (foot, end, is_hovered) in &highlight.arms {
         add_arm(marks, *foot, *end, *is_hovered, theme);
     }
+}
+
+/// A tangent strip: its outer edge, and rungs from the curve to it.
+fn add_strip(marks: &mut Marks, strip: &Strip, theme: &Theme) {
+    let opacity = if strip.is_ghost { 0.5 } else { 1.0 };
+    let rung = Style {
+        fill: theme.handle.with_w(STRIP_RUNG * opacity),
+        half_width: SKETCH,
+        hidden: STRIP_HIDDEN,
+        ..Style::default()
+    };
+    for ends in &strip.rungs {
+        marks.add_polyline(ends.iter().copied(), false, rung);
+    }
+    let edge = Style { fill: theme.handle.with_w(STRIP_EDGE * opacity), half_width: CURVE, ..rung };
+    marks.add_polyline(strip.rungs.iter().map(|ends| ends[1]), strip.closed, edge);
 }
 
 /// A handle: a line from its point, and a dot to take hold of. It is as plain before a surface as behind one.
@@ -332,6 +356,21 @@ mod tests {
         assert_eq!(Vec3::from_slice(&marks.floats[at..at + 3]), Vec3::Y);
         let [plain, hovered] = [marks.dot_styles[0], marks.dot_styles[1]];
         assert!(plain.fill == theme.handle && hovered.half_width > plain.half_width);
+    }
+
+    #[test]
+    fn a_strip_has_a_rung_at_every_sample_and_an_edge_and_a_ghost_is_fainter() {
+        let theme = Theme::new(false);
+        let rungs = vec![[Vec3::ZERO, Vec3::Z], [Vec3::X, Vec3::X + Vec3::Z], [Vec3::Y, Vec3::Y + Vec3::Z]];
+        let strip = Strip { rungs, closed: true, is_ghost: false };
+        let edges = [false, true].map(|is_ghost| {
+            let mut marks = Marks::default();
+            add_strip(&mut marks, &Strip { is_ghost, ..strip.clone() }, &theme);
+            assert_eq!(marks.segments.len(), 3 + 3);
+            marks.curve_styles[3].fill
+        });
+        assert_eq!(edges[0].truncate(), theme.handle.truncate());
+        assert!(edges[1].w < edges[0].w);
     }
 
     #[test]

@@ -17,6 +17,7 @@ mod options;
 mod pair;
 mod path;
 mod preview;
+mod ribbon;
 mod selection;
 mod sketch;
 mod surgery;
@@ -33,6 +34,7 @@ pub use options::{Options, Toggle};
 pub use pair::Pick;
 pub use path::Corner;
 pub use preview::{mean_radius, ties, tube};
+pub use ribbon::{handles_along, surface_of};
 pub use selection::Selection;
 pub use sketch::Stroke;
 
@@ -175,6 +177,12 @@ impl Toolbox {
         matches!(self.kind, ToolKind::Shape | ToolKind::Cage | ToolKind::Displace)
     }
 
+    /// Whether a drag takes hold of handles.
+    #[must_use]
+    pub fn turns(&self) -> bool {
+        self.holds() || self.kind == ToolKind::Ribbon
+    }
+
     /// What the tool wants next, in one line.
     #[must_use]
     pub fn hint(&self) -> &'static str {
@@ -188,6 +196,7 @@ impl Toolbox {
                 "Drag a surface from inside. Wheel, [ ]: how far around. Shift-click: a place that stays. Ctrl-click: one that moves along."
             }
             ToolKind::Sheet => "Click a closed curve to skin it.",
+            ToolKind::Ribbon => "Click a rim, or a curve or point in a surface. Drag the green handles.",
             ToolKind::Fill => {
                 "Click a curve to fill the loop through it. Enter fills all loops of its network."
             }
@@ -218,6 +227,7 @@ impl Toolbox {
                 Ok(boundary) => vec![Act::Edit(Edit::Sheet { boundary })],
                 Err(why) => vec![Act::Say(why)],
             },
+            ToolKind::Ribbon => ribbon::click(aim, around),
             ToolKind::Fill => fill::click(aim, &self.options),
             ToolKind::Burnout => surgery::burn_out(aim),
             ToolKind::Crease => surgery::crease(aim, around),

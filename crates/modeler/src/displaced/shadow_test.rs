@@ -292,9 +292,18 @@ fn what_cannot_shadow_or_be_shadowed_is_refused_by_name() {
         let why = bench.refuse(edit);
         assert!(why.contains(words), "{why}");
     }
+}
+
+/// Places round one of the plane.
+fn round(centre: DVec3, radius: f64) -> Vec<DVec3> {
+    [DVec3::X, DVec3::Y, DVec3::NEG_X, DVec3::NEG_Y].map(|way| centre + way * radius).to_vec()
+}
+
+#[test]
+fn a_region_or_a_stamp_with_a_hole_shows_no_shadow_and_says_why() {
+    let mut bench = Bench::stamped();
     // A curve inside makes a disc of the middle and a ring of the rest.
-    let along = [[0.4, 0.0], [0.0, 0.4], [-0.4, 0.0], [0.0, -0.4]].map(|[x, y]| DVec3::new(x, y, 0.0));
-    bench.edit(Edit::SLoop { surface: ONE, along: along.to_vec(), closed: true });
+    bench.edit(Edit::SLoop { surface: ONE, along: round(DVec3::ZERO, 0.4), closed: true });
     bench.rest();
     let ring = Edit::Shadow { region: on_one(DVec3::X * 0.7), of: Some(TWO), strength: 1.0, turn: None };
     let why = bench.refuse(ring);
@@ -304,17 +313,20 @@ fn what_cannot_shadow_or_be_shadowed_is_refused_by_name() {
     assert!((bench.highest(ONE).z - 0.24).abs() < 0.02, "{}", bench.highest(ONE));
     assert!(bench.structure.regions.iter().any(|entry| entry.shadow == Some(bench.shadow())));
     // A hole in the stamp leaves the region as it is, until there is a disc again.
-    bench.edit(Edit::SLoop {
-        surface: TWO,
-        along: along.map(|at| DVec3::X * 3.0 + at * 0.4).to_vec(),
-        closed: true,
-    });
+    bench.edit(Edit::SLoop { surface: TWO, along: round(DVec3::X * 3.0, 0.16), closed: true });
     bench.edit(Edit::Burnout { region: On { surface: TWO, at: DVec3::X * 3.0 } });
     bench.rest();
     assert!(bench.highest(ONE).z.abs() < 1e-3, "{}", bench.highest(ONE));
+    // And the frame says why.
+    let [failed] = &bench.structure.failed_shadows[..] else {
+        panic!("{:?}", bench.structure.failed_shadows)
+    };
+    assert_eq!((failed.surface, failed.shadow), (ONE, bench.shadow()));
+    assert!(failed.why.contains("the stamp does not suit, it has 2 rims"), "{}", failed.why);
     bench.accept(Request::Undo);
     bench.rest();
     assert!((bench.highest(ONE).z - 0.24).abs() < 0.02, "{}", bench.highest(ONE));
+    assert_eq!(bench.structure.failed_shadows, []);
 }
 
 #[test]

@@ -13,7 +13,7 @@ use crate::error::{ModelError, ShadowError};
 use crate::model::Model;
 use crate::relax::Relaxer;
 use ductile_patch::relief::{Disc, Ground, Impression, Stamp};
-use ductile_spec::{Document, PointId, Region, Shadow, SkeletonVertex, SurfaceId};
+use ductile_spec::{Document, FailedShadow, PointId, Region, Shadow, SkeletonVertex, SurfaceId};
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -83,6 +83,16 @@ impl Displacer {
         let part = part.as_ref().map_err(|reason| refuse(*reason))?;
         let turn = part.ground.natural_turn(&part.source.stamp, &shadowed.below);
         turn.map_err(|reason| refuse(ShadowError::Region(reason)))
+    }
+
+    /// The shadows that do not show, and why not.
+    pub(crate) fn failed_shadows(&self) -> Vec<FailedShadow> {
+        let of_one = |(id, shadowed): (&SurfaceId, &Shadowed)| -> Vec<FailedShadow> {
+            let told = shadowed.asked.iter().zip(&shadowed.parts);
+            let failed = told.filter_map(|(region, part)| Some((region.shadow?, part.as_ref().err()?)));
+            failed.map(|(shadow, why)| FailedShadow { surface: *id, shadow, why: why.to_string() }).collect()
+        };
+        self.shadowed.iter().flat_map(of_one).collect()
     }
 
     /// The place below a shadow under a place of what is shown.

@@ -5,8 +5,9 @@ use crate::model::{Model, round_to_digits};
 use crate::patch::PatchRim;
 use crate::plane;
 use crate::relax::Relaxer;
-use ductile_spec::{CurveId, Leave, Objective, Ribbon, SkeletonVertex, SurfaceId};
+use ductile_spec::{CurveId, Leave, Objective, PointId, Ribbon, SkeletonVertex, SurfaceId};
 use glam::DVec3;
+use std::collections::BTreeMap;
 
 /// Digits of a direction: an angle is kept to less than a millionth of a radian.
 const DIRECTION_DIGITS: usize = 8;
@@ -36,8 +37,13 @@ pub(super) fn ribbon(
                 return Err(ModelError::BadAngle);
             }
             let bound = relaxer.surface(id, shape).ok_or(ModelError::NoSurface(id))?;
-            let mut cross = bound.planes(model, shape).leaving(id, curve, *angle)?;
-            cross.values_mut().for_each(|at| *at = kept_direction(*at));
+            Some(Ribbon::directed(kept(bound.planes(model, shape).leaving(id, curve, *angle)?)))
+        }
+        Some(Leave::Now) => {
+            let bound = relaxer.surface(id, shape).ok_or(ModelError::NoSurface(id))?;
+            let mut cross = kept(bound.planes(model, shape).left_now(id, curve)?);
+            let given = model.document.surfaces.get(&id).and_then(|surface| surface.ribbons.get(&curve));
+            cross.extend(given.into_iter().flat_map(|ribbon| &ribbon.cross));
             Some(Ribbon::directed(cross))
         }
     };
@@ -57,6 +63,12 @@ pub(super) fn kept_direction(direction: DVec3) -> DVec3 {
     let kept = |x: f64| round_to_digits(x, DIRECTION_DIGITS) + 0.0;
     // Noise of a sine is no digit.
     DVec3::from_array(direction.to_array().map(|x| if x.abs() < 1e-12 { 0.0 } else { kept(x) }))
+}
+
+/// As [`kept_direction`], for each point.
+fn kept(mut cross: BTreeMap<PointId, DVec3>) -> BTreeMap<PointId, DVec3> {
+    cross.values_mut().for_each(|at| *at = kept_direction(*at));
+    cross
 }
 
 /// Refuses a plane for a surface that has no bending to hold it with.

@@ -8,9 +8,6 @@ use crate::Camera;
 use ductile_spec::{Document, GrabTarget, Handle, PointId};
 use glam::{Vec2, Vec3};
 
-/// Length of a handle in the picture, in CSS pixels: clear of the point that it stands on, and of a fingertip there.
-const LENGTH: f32 = 64.0;
-
 /// A handle in the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arm {
@@ -23,11 +20,14 @@ pub struct Arm {
 }
 
 impl Arm {
+    /// Length of a handle in the picture, in CSS pixels: clear of the point that it stands on, and of a fingertip there.
+    pub const LENGTH: f32 = 64.0;
+
     /// A handle of the usual length.
     #[must_use]
     pub fn new(handle: Handle, foot: Vec3, direction: Vec3, camera: &Camera) -> Self {
         let unit = direction.try_normalize().unwrap_or(Vec3::X);
-        Self { handle, foot, end: foot + unit * (LENGTH * camera.unit_per_pixel(foot)) }
+        Self { handle, foot, end: foot + unit * (Self::LENGTH * camera.unit_per_pixel(foot)) }
     }
 
     /// How far the end is from a cursor, in CSS pixels, if it is within reach. A handle is shown before everything else, so
@@ -57,18 +57,21 @@ impl Arm {
 /// The directions that a document prescribes at a control point, each with what turns it.
 #[must_use]
 pub fn handles_at(document: &Document, point: PointId) -> Vec<(Handle, Vec3)> {
-    let curves = document.curves.iter();
-    let tangents = curves.filter_map(|(id, curve)| {
+    let tangents = document.curves.iter().filter_map(|(id, curve)| {
         let direction = curve.tangents.get(&point)?;
         Some((Handle::Tangent { curve: *id, point }, direction.try_normalize()?.as_vec3()))
     });
-    tangents.collect()
+    let normals = document.surfaces.iter().filter_map(|(id, surface)| {
+        let normal = surface.normals.get(&point)?;
+        Some((Handle::Normal { surface: *id, point }, normal.try_normalize()?.as_vec3()))
+    });
+    tangents.chain(normals).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ductile_spec::{Curve, CurveId};
+    use ductile_spec::{Curve, CurveId, Skeleton, Surface, SurfaceId};
     use glam::DVec3;
     #[cfg(target_arch = "wasm32")]
     use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -83,7 +86,7 @@ mod tests {
             camera.set_pose(crate::Pose { distance, ..camera.pose() });
             let arm = Arm::new(HANDLE, Vec3::ZERO, across * 7.0, &camera);
             let [foot, end] = [arm.foot, arm.end].map(|at| camera.project(at).unwrap());
-            assert!((foot.distance(end) - LENGTH).abs() < 1.0, "{}", foot.distance(end));
+            assert!((foot.distance(end) - Arm::LENGTH).abs() < 1.0, "{}", foot.distance(end));
             assert_eq!(Arm::nearest(&[arm], &camera, end + Vec2::X * 5.0, 9.0), Some(arm));
             assert_eq!(Arm::nearest(&[arm], &camera, foot, 9.0), None);
             let at_the_eye = Arm::new(HANDLE, Vec3::ZERO, camera.forward(), &camera);
@@ -121,5 +124,10 @@ mod tests {
         document.curves.insert(CurveId(1), curve);
         assert_eq!(handles_at(&document, PointId(1)), []);
         assert_eq!(handles_at(&document, PointId(2)), [(HANDLE, Vec3::Y)]);
+        let mut surface = Surface::new(Skeleton::default());
+        surface.normals.insert(PointId(2), DVec3::Z * 0.5);
+        document.surfaces.insert(SurfaceId(4), surface);
+        let normal = Handle::Normal { surface: SurfaceId(4), point: PointId(2) };
+        assert_eq!(handles_at(&document, PointId(2)), [(HANDLE, Vec3::Y), (normal, Vec3::Z)]);
     }
 }

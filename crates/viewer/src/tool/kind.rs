@@ -35,6 +35,8 @@ pub enum ToolKind {
     Trim,
     /// Fills loops of curves with exact patches.
     Fill,
+    /// Turns how surfaces leave curves.
+    Ribbon,
     /// Places cages and takes hold of their parts.
     Cage,
     /// Pulls the inside of surfaces.
@@ -47,7 +49,7 @@ pub enum ToolKind {
 
 impl ToolKind {
     /// Those of the bar.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 17] = [
         Self::Shape,
         Self::Point,
         Self::Curve,
@@ -60,6 +62,7 @@ impl ToolKind {
         Self::Glue,
         Self::Merge,
         Self::Trim,
+        Self::Ribbon,
         Self::Fill,
         Self::Cage,
         Self::Displace,
@@ -82,6 +85,7 @@ impl ToolKind {
             Self::Glue => "glue",
             Self::Merge => "merge",
             Self::Trim => "trim",
+            Self::Ribbon => "ribbon",
             Self::Fill => "fill",
             Self::Cage => "cage",
             Self::Displace => "displace",
@@ -106,6 +110,7 @@ impl ToolKind {
             "g" => Some(Self::Glue),
             "m" => Some(Self::Merge),
             "t" => Some(Self::Trim),
+            "r" => Some(Self::Ribbon),
             "f" => Some(Self::Fill),
             "q" => Some(Self::Cage),
             "e" => Some(Self::Displace),
@@ -117,7 +122,7 @@ impl ToolKind {
     /// Whether it takes control points.
     #[must_use]
     pub fn wants_points(self) -> bool {
-        matches!(self, Self::Shape | Self::Point | Self::Curve | Self::Draw | Self::Cage)
+        matches!(self, Self::Shape | Self::Point | Self::Curve | Self::Draw | Self::Ribbon | Self::Cage)
     }
 
     /// Whether it takes curves.
@@ -138,7 +143,7 @@ impl ToolKind {
     /// Whether it takes surfaces, or places on them.
     #[must_use]
     pub fn wants_surfaces(self) -> bool {
-        !matches!(self, Self::Sheet | Self::Sweep | Self::Match | Self::Fill)
+        !matches!(self, Self::Sheet | Self::Sweep | Self::Match | Self::Fill | Self::Ribbon)
     }
 
     /// Whether it acts on a whole region rather than at a place.
@@ -155,7 +160,10 @@ impl ToolKind {
             (Self::Draw, Hit::Point { id, .. }) => {
                 entry(structure, *id).is_some_and(|point| point.role != PointRole::Free)
             }
-            (Self::Draw | Self::Crease | Self::Split, Hit::Curve { id, .. }) => {
+            (Self::Ribbon, Hit::Point { id, .. }) => {
+                entry(structure, *id).is_some_and(|point| point.role == PointRole::Surface)
+            }
+            (Self::Draw | Self::Crease | Self::Split | Self::Ribbon, Hit::Curve { id, .. }) => {
                 curve(*id).is_some_and(|curve| curve.role != CurveRole::Free)
             }
             (Self::Sheet | Self::Match, Hit::Curve { id, .. }) => {

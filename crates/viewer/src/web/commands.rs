@@ -165,6 +165,7 @@ impl Page {
             "free-normal" => self.free_normal(),
             "free-ribbon" => self.free_ribbon(),
             "free-shadow" => self.free_shadow(),
+            "free-told" => self.free_told(),
             "release" => {
                 if let Selection::Point(point) = self.selection {
                     self.request(Request::Edit(Edit::Release { point }));

@@ -76,8 +76,10 @@ impl Page {
     }
 
     /// Why nothing can be filled where the tool points, for the hint.
-    pub(crate) fn why_no_loop(&self) -> Option<&str> {
-        self.looped().and_then(|(curve, _)| self.looping.why(curve))
+    pub(crate) fn why_no_loop(&self) -> Option<String> {
+        let why = self.looped().and_then(|(curve, _)| self.looping.why(curve))?;
+        let first = why.chars().next()?;
+        Some(format!("{}{}.", first.to_uppercase(), &why[first.len_utf8()..]))
     }
 
     /// Fills all loops of the network of the curve that is pointed at or selected, or of all curves.

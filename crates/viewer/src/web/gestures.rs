@@ -4,8 +4,8 @@ use super::dom;
 use super::page::Page;
 use crate::input::{Button, Gesture, Modifiers, Pointer, Recogniser};
 use crate::tool::{
-    Act, Aim, Arm, Drag, Place, Selection, Stroke, Surroundings, ToolKind, entry, grid_step, handles_at,
-    work_plane,
+    Act, Aim, Arm, Drag, Place, Selection, Stroke, Surroundings, ToolKind, entry, grid_step, handles_along,
+    handles_at, work_plane,
 };
 use crate::{Hit, Pose, RimHit, View, Wanted, pick, pick_among};
 use ductile_spec::{Edit, GrabTarget, PointRole, Request};
@@ -56,13 +56,10 @@ impl Page {
         self.hand.cursor = Some(pointer.at);
         self.hand.modifiers = pointer.modifiers;
         let on_triad = self.shows_triad() && self.camera.triad_hit(pointer.at).is_some();
-        let is_thing = || {
-            self.arm_at(pointer.at).is_some()
-                || self.foot_at(pointer.at).is_some()
-                || self.thing_at(pointer.at).is_some()
-        };
+        let is_thing = || self.foot_at(pointer.at).is_some() || self.thing_at(pointer.at).is_some();
         let draws = || self.tools.sketches() && self.thing_at(pointer.at).is_some();
-        let holds = !on_triad && (draws() || self.tools.holds() && is_thing());
+        let turns = || self.tools.turns() && self.arm_at(pointer.at).is_some();
+        let holds = !on_triad && (turns() || draws() || self.tools.holds() && is_thing());
         let gestures = self.hand.recogniser.down(pointer, button, holds);
         self.run(gestures);
     }
@@ -162,8 +159,13 @@ impl Page {
 
     /// What a press at a place would take.
     pub(crate) fn thing_at(&self, at: Vec2) -> Option<Hit> {
-        let hit = pick_among(&self.scene, &self.camera, at, self.hand.reach(), self.wanted());
-        self.cage_part_at(at, hit)
+        let wanted = self.wanted();
+        let among = |wanted| pick_among(&self.scene, &self.camera, at, self.hand.reach(), wanted);
+        if self.tools.kind() == ToolKind::Ribbon {
+            // It is about curves: their points do not stand before them.
+            return among(Wanted { points: false, ..wanted }).or_else(|| among(wanted));
+        }
+        self.cage_part_at(at, among(wanted))
     }
 
     /// What the tool in hand could take, among what is shown.
@@ -200,7 +202,7 @@ impl Page {
             self.fly_to(pose);
             return;
         }
-        if self.tools.holds() && self.arm_at(at).is_some() {
+        if self.tools.turns() && self.arm_at(at).is_some() {
             // A handle is there to be dragged; what lies below it is not meant.
             return;
         }
@@ -208,6 +210,8 @@ impl Page {
             return;
         }
         let hit = self.thing_at(at);
+        let surface_beside = self.surface_at(at, hit.as_ref());
+        self.meant = surface_beside;
         self.picked = match hit {
             Some(Hit::Surface { id, at, .. }) => Some((id, at)),
             _ => None,
@@ -216,7 +220,7 @@ impl Page {
             hit: hit.as_ref(),
             place: self.place_on_plane(at, modifiers),
             corner: self.corner_at(at),
-            surface: self.surface_at(at, hit.as_ref()),
+            surface: surface_beside,
             rim: self.rim_at(at).map(|rim| Place { surface: rim.surface, at: rim.at, normal: None }),
         };
         self.click_with(aim);
@@ -224,6 +228,10 @@ impl Page {
 
     /// Gives a click to the tool in hand, and does what it wants done.
     pub(crate) fn click_with(&mut self, aim: Aim<'_>) {
+        if let (ToolKind::Ribbon, Some(Hit::Point { id, .. })) = (self.tools.kind(), aim.hit) {
+            self.take_normal(*id);
+            return;
+        }
         let radius = self.suited_radius();
         let (structure, document) = (&self.scene.structure, &self.document);
         let size = self.suited_size();
@@ -256,22 +264,26 @@ impl Page {
         }
     }
 
-    /// The handles of the selected point; the one that is held ends where the hand is.
+    /// The handles of the selected point or curve; the one that is held ends where the hand is.
     pub(crate) fn arms(&self) -> Vec<Arm> {
-        let Selection::Point(point) = self.selection else { return Vec::new() };
-        let shows = self.settings.look.skeleton && self.tools.kind() != ToolKind::Displace;
-        let Some(foot) = self.scene.point(point).filter(|_| shows) else {
+        if !self.settings.look.skeleton || self.tools.kind() == ToolKind::Displace {
             return Vec::new();
+        }
+        let at = |point| handles_at(&self.document, point).into_iter();
+        let handles = match self.selection {
+            Selection::Point(point) => at(point).map(|(handle, way)| (handle, point, way)).collect(),
+            Selection::Curve(curve) => handles_along(&self.document, curve),
+            _ => Vec::new(),
         };
-        let arm = |(handle, direction)| {
-            let arm = Arm::new(handle, foot, direction, &self.camera);
+        let arm = |(handle, point, direction)| {
+            let arm = Arm::new(handle, self.scene.point(point)?, direction, &self.camera);
             let held = self.hand.drag.filter(|drag| drag.target() == GrabTarget::Handle(handle));
             let place = held.zip(self.hand.cursor).and_then(|(drag, cursor)| {
                 drag.place(&self.camera, cursor, self.hand.modifiers, self.grid())
             });
-            Arm { end: place.map_or(arm.end, |place| place.as_vec3()), ..arm }
+            Some(Arm { end: place.map_or(arm.end, |place| place.as_vec3()), ..arm })
         };
-        handles_at(&self.document, point).into_iter().map(arm).collect()
+        handles.into_iter().filter_map(arm).collect()
     }
 
     /// The handle that a press at a place would take.
@@ -383,7 +395,7 @@ impl Page {
         }
         self.hand.hover_view = self.camera.triad_hit(at).filter(|_| self.shows_triad());
         if self.hand.hover_view.is_none() {
-            self.hand.hover_arm = self.arm_at(at).filter(|_| self.tools.holds());
+            self.hand.hover_arm = self.arm_at(at).filter(|_| self.tools.turns());
         }
         if self.hand.hover_view.is_none() && self.hand.hover_arm.is_none() {
             let kind = self.tools.kind();

@@ -161,6 +161,7 @@ impl Page {
         put(&out, "tinted", number(marks.tinted.len()));
         put(&out, "rims", number(marks.rims.len()));
         put(&out, "lines", number(marks.sketch.len()));
+        put(&out, "strips", number(marks.strips.len()));
         put(&out, "parts", number(marks.parts.len()));
         out
     }

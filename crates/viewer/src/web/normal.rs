@@ -59,6 +59,11 @@ impl Page {
         }
     }
 
+    /// Whether the chosen point has a prescribed normal.
+    pub(crate) fn has_normal(&self) -> bool {
+        self.normal_subject().is_some_and(|(surface, point)| self.given_normal(surface, point).is_some())
+    }
+
     /// Sets the plane free.
     pub(crate) fn free_normal(&mut self) {
         if let Some((surface, point)) = self.normal_subject() {
@@ -85,16 +90,25 @@ impl Page {
         Some(self.scene.vertex_normal(nearest))
     }
 
-    /// The prescribed directions at what is selected: where, and which way.
-    pub(crate) fn marked_directions(&self) -> Vec<(Vec3, Vec3)> {
-        match self.selection {
-            Selection::Point(_) => {
-                let Some((surface, point)) = self.normal_subject() else { return Vec::new() };
-                let given = self.given_normal(surface, point).zip(self.scene.point(point));
-                given.map(|(normal, at)| (at, normal.as_vec3())).into_iter().collect()
-            }
-            Selection::Curve(curve) => self.ribbon_directions(curve),
-            _ => Vec::new(),
+    /// Prescribes the normal that a surface has now at a point, unless one is prescribed; its handle turns it.
+    pub(crate) fn take_normal(&mut self, point: PointId) {
+        self.selection = Selection::Point(point);
+        self.refresh();
+        let Some((surface, point)) = self.normal_subject() else {
+            self.notices.refusal("No fair surface passes through this point.");
+            return;
+        };
+        if self.given_normal(surface, point).is_none() {
+            let normal = self.present_normal(surface, point);
+            self.request(Request::Edit(Edit::Normal { surface, point, normal }));
         }
+    }
+
+    /// The prescribed directions at what is selected, where no handles stand for them: where, and which way.
+    pub(crate) fn marked_directions(&self) -> Vec<(Vec3, Vec3)> {
+        if self.tools.turns() {
+            return Vec::new();
+        }
+        self.arms().into_iter().map(|arm| (arm.foot, arm.end - arm.foot)).collect()
     }
 }

@@ -28,6 +28,7 @@ impl Page {
         dom::show(&dom::element("reach"), kind == ToolKind::Displace);
         self.show_fill_option();
         any |= self.show_cage_option();
+        any |= self.show_ribbon_option();
         for toggle in Toggle::ALL {
             let button = dom::element(&format!("option-{}", toggle.word()));
             let serves = toggle.serves(kind);

@@ -18,7 +18,7 @@ use crate::limit::Limit;
 use crate::memory::Memory;
 use crate::schedule::Schedule;
 use crate::tool::{Selection, Toolbox};
-use crate::{Camera, Looping, Meetings, Reaching, Reporting, Rims, Scene};
+use crate::{Camera, Looping, Meetings, Reaching, Reporting, Rims, Scene, StripCourse};
 use ductile_spec::{Committed, Document, Edit, Request, SurfaceId};
 use glam::Vec3;
 use std::cell::RefCell;
@@ -46,6 +46,8 @@ pub(crate) struct Page {
     pub(crate) selection: Selection,
     /// Which surface was clicked last, and where: the place names a region of it.
     pub(crate) picked: Option<(SurfaceId, Vec3)>,
+    /// The surface under or beside the last click: of those that follow a curve, the one that is meant.
+    pub(crate) meant: Option<SurfaceId>,
     pub(crate) hand: Hand,
     /// The rims of the newest structure for which a tool wanted them.
     pub(crate) rims: Rims,
@@ -61,6 +63,8 @@ pub(crate) struct Page {
     pub(crate) reporting: Reporting,
     /// The seam of the report that is pointed at.
     pub(crate) seam_over: Option<usize>,
+    /// Where the tangent strips run that are shown.
+    pub(crate) strips: Vec<StripCourse>,
     /// What would do nearly what was refused.
     pub(crate) remedies: Vec<Edit>,
     /// What the list of seams was made from.
@@ -129,6 +133,7 @@ pub(crate) fn start() {
         tools: Toolbox::default(),
         selection: Selection::None,
         picked: None,
+        meant: None,
         hand: Hand::default(),
         rims: Rims::default(),
         meetings: Meetings::default(),
@@ -137,6 +142,7 @@ pub(crate) fn start() {
         looping: Looping::default(),
         reporting: Reporting::default(),
         seam_over: None,
+        strips: Vec::new(),
         remedies: Vec::new(),
         seams_shown: String::new(),
         chosen_foot: None,

@@ -122,7 +122,7 @@ impl Page {
 
     fn show_hint(&self) {
         let hint = match &self.hand.drag {
-            None => self.why_no_loop().unwrap_or_else(|| self.tools.hint()),
+            None => &self.why_no_loop().unwrap_or_else(|| self.tools.hint().to_owned()),
             Some(drag) if drag.lock().is_some() => {
                 "Along the axis. The same key frees it again, Esc puts everything back."
             }

@@ -6,7 +6,9 @@ use super::page::Page;
 use super::port::Answer;
 use crate::schedule::Answered;
 use crate::tool::{Selection, ToolKind};
-use ductile_spec::{Committed, Example, FrameHeader, GrabTarget, Grabbed, Refusal, Request, from_text};
+use ductile_spec::{
+    Committed, Example, FrameHeader, GrabTarget, Grabbed, Handle, Refusal, Request, from_text,
+};
 use js_sys::Float32Array;
 use wasm_bindgen::JsValue;
 
@@ -155,6 +157,8 @@ impl Page {
         self.selection = match self.hand.drag.map(|drag| drag.target()) {
             Some(GrabTarget::Edge { surface, ends, .. }) => Selection::Edge { surface, ends },
             Some(GrabTarget::Face { surface, face, .. }) => Selection::Face { surface, face },
+            // The other handles of the curve stay in sight.
+            Some(GrabTarget::Handle(Handle::Ribbon { curve, .. })) => Selection::Curve(curve),
             _ => Selection::Point(grabbed.point),
         };
         if let Some(drag) = &mut self.hand.drag {

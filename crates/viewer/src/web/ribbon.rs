@@ -6,7 +6,8 @@
 use super::dom;
 use super::page::{Page, act};
 use crate::number;
-use crate::tool::Selection;
+use crate::tool::{Arm, Selection, ToolKind, surface_of};
+use crate::{Highlight, Hit, Strip, StripCourse};
 use ductile_spec::{CurveId, Document, Edit, Leave, PointId, Request, SurfaceId};
 use glam::{DVec2, DVec3, Vec3};
 use web_sys::{Event, HtmlInputElement, HtmlSelectElement};
@@ -15,6 +16,9 @@ use web_sys::{Event, HtmlInputElement, HtmlSelectElement};
 pub(crate) const FIELD: &str = "ribbon-angle";
 /// The select of the surface that is gone on from.
 const ONTO: &str = "ribbon-onto";
+
+/// Width of a tangent strip: the handles end at its outer edge.
+const STRIP: f32 = Arm::LENGTH;
 
 /// Degrees by which the angles at the points may differ and still be shown as one.
 const ALIKE: f64 = 0.05;
@@ -33,7 +37,7 @@ impl Page {
     /// The chosen curve and the surface that the field is about.
     fn ribbon_subject(&self) -> Option<(SurfaceId, CurveId)> {
         let Selection::Curve(curve) = self.selection else { return None };
-        self.document.surfaces_on(curve).next().map(|surface| (surface, curve))
+        surface_of(&self.document, curve, self.meant).map(|surface| (surface, curve))
     }
 
     /// What the field shows.
@@ -113,6 +117,22 @@ impl Page {
         }
     }
 
+    /// Shows the way back beside the hint, where the tool has told a surface something.
+    pub(crate) fn show_ribbon_option(&self) -> bool {
+        let is_told = self.ribbon_subject().is_some_and(|subject| self.ribbon(subject).is_some());
+        let shows = self.tools.kind() == ToolKind::Ribbon && (is_told || self.has_normal());
+        dom::show(&dom::element("option-free"), shows);
+        shows
+    }
+
+    /// Sets free what the tool has told a surface.
+    pub(crate) fn free_told(&mut self) {
+        match self.selection {
+            Selection::Point(_) => self.free_normal(),
+            _ => self.free_ribbon(),
+        }
+    }
+
     /// Sets the surface free along the curve.
     pub(crate) fn free_ribbon(&mut self) {
         if let Some((surface, curve)) = self.ribbon_subject() {
@@ -124,12 +144,49 @@ impl Page {
         self.document.surfaces.get(&surface)?.ribbons.get(&curve)
     }
 
-    /// The directions of the chosen curve's ribbon: where, and which way.
-    pub(crate) fn ribbon_directions(&self, curve: CurveId) -> Vec<(Vec3, Vec3)> {
-        let ribbon =
-            self.document.surfaces_on(curve).next().and_then(|surface| self.ribbon((surface, curve)));
-        let cross = ribbon.into_iter().flat_map(|ribbon| &ribbon.cross);
-        cross.filter_map(|(point, cross)| Some((self.scene.point(*point)?, cross.as_vec3()))).collect()
+    /// The surfaces and curves along which tangent strips are shown, and whether only because the tool points there.
+    fn stripped(&self) -> Vec<(SurfaceId, CurveId, bool)> {
+        if !self.tools.turns() || !self.settings.look.skeleton {
+            return Vec::new();
+        }
+        let mut all = Vec::new();
+        if let Selection::Curve(curve) = self.selection {
+            let has_ribbon = |surface: &SurfaceId| self.ribbon((*surface, curve)).is_some();
+            all.extend(self.document.surfaces_on(curve).filter(has_ribbon).map(|id| (id, curve, false)));
+        }
+        if let (ToolKind::Ribbon, Some(hit @ Hit::Curve { id, .. })) = (self.tools.kind(), &self.hand.hover) {
+            let meant = self.hand.cursor.and_then(|at| self.surface_at(at, Some(hit)));
+            let surface = surface_of(&self.document, *id, meant);
+            all.extend(surface.map(|surface| (surface, *id, true)).filter(|(surface, curve, _)| {
+                !all.iter().any(|(on, along, _)| (on, along) == (surface, curve))
+            }));
+        }
+        all
+    }
+
+    /// Finds anew where the strips run that are shown, if the mesh is another.
+    pub(crate) fn find_strips(&mut self) {
+        let wanted = self.stripped();
+        let mut courses = std::mem::take(&mut self.strips);
+        for (surface, curve, _) in wanted {
+            let known = courses.iter().position(|own| own.is_of(&self.scene, surface, curve));
+            let known = known.map(|at| courses.swap_remove(at));
+            self.strips.extend(known.or_else(|| StripCourse::find(&self.scene, surface, curve)));
+        }
+    }
+
+    /// The tangent strips of the selected curve, and of the one that the tool points at.
+    pub(crate) fn mark_strips(&self, mark: &mut Highlight) {
+        for (surface, curve, is_ghost) in self.stripped() {
+            let course = self.strips.iter().find(|own| own.is_of(&self.scene, surface, curve));
+            let given = self.ribbon((surface, curve)).and_then(|ribbon| ribbon.cross.first_key_value());
+            let side = given.and_then(|(point, cross)| Some((self.scene.point(*point)?, cross.as_vec3())));
+            mark.strips.extend(
+                course
+                    .filter(|_| self.scene.has_frame())
+                    .map(|course| Strip { is_ghost, ..course.strip(&self.scene, &self.camera, STRIP, side) }),
+            );
+        }
     }
 
     /// The angle that the ribbon has at all of its points, in degrees.

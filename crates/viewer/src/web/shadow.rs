@@ -5,7 +5,7 @@ use super::page::Page;
 use crate::number;
 use crate::tool::{Place, Selection};
 use crate::{Highlight, Hit, Tinted};
-use ductile_spec::{Edit, On, Request, Shadow};
+use ductile_spec::{Edit, On, Request, Shadow, SurfaceId};
 
 /// The fields of index.html: what heights are multiplied by, and the turn in degrees.
 pub(crate) const FIELDS: [&str; 2] = ["shadow-strength", "shadow-turn"];
@@ -55,6 +55,18 @@ impl Page {
         if let Some((_, shadow)) = shadow {
             dom::text(&dom::element("shadow-title"), &format!("Shadow of {}", shadow.of));
         }
+        let trouble = dom::element("shadow-trouble");
+        let why = shadow.and_then(|(on, shadow)| self.why_no_shadow(on.surface, &shadow));
+        dom::show(&trouble, why.is_some());
+        let why = why.unwrap_or_default();
+        let text = format!("It does not show: {why}. It comes back by itself when that is mended.");
+        dom::text(&trouble, &text);
+    }
+
+    /// Why a shadow does not show at the moment.
+    fn why_no_shadow(&self, surface: SurfaceId, shadow: &Shadow) -> Option<&str> {
+        let mut failed = self.scene.structure.failed_shadows.iter();
+        failed.find(|failed| (failed.surface, &failed.shadow) == (surface, shadow)).map(|failed| &*failed.why)
     }
 
     /// What a field shows.

@@ -234,6 +234,7 @@ impl Page {
     }
 
     fn draw(&mut self) {
+        self.find_strips();
         let highlight = self.highlight();
         let look = Look { triad: self.shows_triad(), ..self.settings.look };
         let Some(renderer) = &mut self.stage.renderer else { return };
@@ -275,7 +276,7 @@ impl Page {
             Selection::Edge { .. } | Selection::Face { .. } | Selection::None => {}
         }
         self.mark_cage(&mut mark);
-        if self.tools.holds() {
+        if self.tools.turns() {
             let held = self.hand.drag.map(|drag| drag.target());
             let is_hot = |arm: &Arm| {
                 self.hand.hover_arm.is_some_and(|over| over.handle == arm.handle)
@@ -291,7 +292,7 @@ impl Page {
             ToolKind::Cage if mark.hover.is_none() && self.hand.drag.is_none() => {
                 self.mark_new_cage(&mut mark)
             }
-            ToolKind::Shape | ToolKind::Sheet | ToolKind::Point | ToolKind::Cage => {}
+            ToolKind::Shape | ToolKind::Sheet | ToolKind::Point | ToolKind::Ribbon | ToolKind::Cage => {}
             ToolKind::Curve | ToolKind::Draw => self.mark_curve(&mut mark),
             ToolKind::Burnout | ToolKind::Crease | ToolKind::Split => self.mark_region(&mut mark),
             ToolKind::Sweep | ToolKind::Match => self.mark_ties(&mut mark),
@@ -302,6 +303,7 @@ impl Page {
             ToolKind::Shadow => self.mark_shadow(&mut mark),
         }
         self.mark_seam(&mut mark);
+        self.mark_strips(&mut mark);
         mark
     }
 

@@ -159,12 +159,14 @@ fn nearest_loop(
     let edge = at.and_then(|at| shape.nearest(at)).map_or(0, |(edge, _)| edge);
     let part = curves.part_at(curve, edge, shape.nodes.len()).ok_or(ModelError::NoLoop(curve))?;
     let mut best: Option<((bool, usize, usize), Vec<FillSide>)> = None;
+    let mut is_filled = false;
     for found in loops_through(&curves.edges, part) {
         let sides = match curves.alone(&found) {
             Some(alone) => at_corners(model, alone)?,
             None => curves.sides(&found),
         };
         if neighbours.is_filled(model, &sides) {
+            is_filled = true;
             continue;
         }
         let key = (sides.len() < 3, neighbours.crowd(model, &sides), sides.len());
@@ -173,7 +175,8 @@ fn nearest_loop(
             best = Some((key, sides));
         }
     }
-    let (_, sides) = best.ok_or(ModelError::NoLoop(curve))?;
+    let none = if is_filled { ModelError::LoopFilled(curve) } else { ModelError::NoLoop(curve) };
+    let (_, sides) = best.ok_or(none)?;
     if sides.len() < 3 { Err(ModelError::FewCorners(curve, sides.len())) } else { Ok(sides) }
 }
 
