@@ -1,5 +1,7 @@
 //! Why the modeler refuses: typed, with the offending thing in the message, in words for the designer.
 
+mod overlay;
+
 use crate::patch::FillError;
 use ductile_mesh::io::{obj::ObjError, ply::PlyError};
 use ductile_mesh::{BridgeError, BuildError, GlueError, IntersectError, PathError};
@@ -7,11 +9,13 @@ use ductile_patch::DisplacementError;
 use ductile_patch::RibbonError;
 use ductile_patch::cage::CageError;
 use ductile_patch::cage::edit::EditError;
-use ductile_patch::relief::ReliefError;
 use ductile_solver::SolverError;
 use ductile_spec::{CurveId, Defect, Document, LinkError, PointId, SurfaceId, SurfaceKind, TextError};
 use glam::DVec3;
 use thiserror::Error;
+
+pub(crate) use overlay::ShadowError;
+use overlay::displaced;
 
 /// Why a request was refused. The model is as it was before.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -558,37 +562,6 @@ pub enum ModelError {
     /// Another act has to be finished first.
     #[error("finish the drag first")]
     Dragging,
-}
-
-/// Why a displacement cannot be met, in words for the designer.
-fn displaced(reason: &DisplacementError) -> String {
-    let why = match reason {
-        DisplacementError::Held(_) => "its foot is on the boundary or on a pin, which stay where they are",
-        DisplacementError::NoBoundary(_) => {
-            "the surface is closed, so that all of it would move: pin a place that stays first"
-        }
-        DisplacementError::Touching(..) => "there is a foot at this place already; change that one",
-        DisplacementError::BadPosition(_) => "there is no surface for its foot to stand on",
-        DisplacementError::FlatTriangle(_) | DisplacementError::Unsolvable(_) => {
-            "the triangles there are too bad; wait until the surface rests, or make the spacing smaller"
-        }
-        other => return other.to_string(),
-    };
-    why.to_owned()
-}
-
-/// Why a region cannot shadow a surface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-pub enum ShadowError {
-    /// The region is no disc.
-    #[error("the region does not suit, {0}")]
-    Region(ReliefError),
-    /// The stamp is no disc.
-    #[error("the stamp does not suit, {0}")]
-    Stamp(ReliefError),
-    /// There is nothing to be seen of one of them at the moment.
-    #[error("one of them has no shape at the moment")]
-    Lost,
 }
 
 impl ModelError {
