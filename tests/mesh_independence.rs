@@ -1,120 +1,137 @@
 //! The first promise: the mesh is an approximation, and the shape does not depend on it.
 //!
-//! One document is solved at several densities. What the coarser meshes say is held against a fine one: every vertex
-//! by its distance to the fine surface. The distance must fall with the spacing, and be small beside the model.
+//! One document is solved with about 600, 2,500 and 10,000 nodes, and with 10,000 on three triangulations that were scrambled by
+//! moving control points out and home again. All are held against one fine solution: the triangles of the finest mesh, each in
+//! sixteen, relaxed by the solvers alone, and taken as the smooth surface that they sample (`acceptance::reference`), so that
+//! neither the facets nor what the modeler does to meshes are part of the figures. Its own error is a sixteenth of that at 10,000
+//! nodes where the order is two.
 
 #![allow(clippy::unwrap_used, reason = "a failing test should stop where it fails")]
 #![allow(clippy::print_stdout, reason = "the figures are worth seeing with --nocapture")]
 
 use acceptance::Bench;
-use acceptance::shapes::{ridged_saddle, torus};
-use acceptance::solved::{Solved, deviation, opened, solve, solved};
-use ductile_spec::{Document, Edit, Example, GrabTarget, Request};
-use glam::dvec3;
+use acceptance::reference::{Deviation, Reference};
+use acceptance::refined::refined;
+use acceptance::shapes::{ridged_saddle, ringed_saddle, torus};
+use acceptance::solved::{Solved, opened, solve, solved};
+use ductile_spec::{Document, Edit, Example};
+use glam::DVec3;
 
-/// Solves an example at three densities and two of nearly the same spacing, so that the triangulations differ.
-fn is_independent(example: Example) {
-    let name = format!("{example:?}");
-    let example = &ductile_modeler::example(example);
-    let fine = solve(example, 0.05);
-    let size = fine.positions.iter().map(|p| p.length()).fold(0.0, f64::max);
-    let mut errors = Vec::new();
-    for (spacing, most) in [(0.2, 0.01), (0.1, 0.004), (0.093, 0.004)] {
-        let coarse = solve(example, spacing);
-        let (worst, mean) = deviation(&coarse, &fine);
-        let energy = (coarse.energy / fine.energy - 1.0).abs();
-        println!(
-            "{name} at {spacing}: {} nodes, worst {:.4} %, rms {:.4} % of the size, energy off by {:.2} %",
-            coarse.positions.len(),
-            100.0 * worst / size,
-            100.0 * mean / size,
-            100.0 * energy
-        );
-        assert!(worst < most * size, "{name} at {spacing}: {worst}");
-        errors.push(mean);
+/// What may be off at 10,000 nodes, as a part of the model's width.
+const MOST: f64 = 1e-3;
+
+/// Moves a control point, another for each seed, outwards by so much, lets the mesh follow, and moves it home. The document is as
+/// before; the triangulation is not.
+fn scramble(bench: &mut Bench, seed: usize, by: f64) {
+    let points: Vec<_> = bench.document().points.into_iter().collect();
+    let middle = points.iter().map(|(_, at)| *at).sum::<DVec3>() / points.len() as f64;
+    let (point, home) = points[seed];
+    bench.edit(Edit::Move { point, to: home + (home - middle).normalize_or_zero() * by });
+    for _ in 0..20 {
+        bench.step(None);
     }
-    // Halving the spacing at the least halves the error: first order, and mostly nearer the second.
-    assert!(errors[0] > 2.0 * errors[1] && errors[0] > 2.0 * errors[2], "{name}: {errors:?}");
+    bench.edit(Edit::Move { point, to: home });
+}
+
+/// Deviations of a document's shapes from its fine solution.
+struct Figures {
+    /// At four times the spacing, at twice the spacing, and at the spacing; and how many nodes these have.
+    meshes: [(usize, Deviation); 3],
+    scrambled: [Deviation; 3],
+}
+
+impl Figures {
+    fn of(name: &str, document: &Document, spacing: f64, reach: f64) -> Self {
+        let coarse = [4.0, 2.0].map(|times| solve(document, times * spacing));
+        let mut bench = opened(document, spacing);
+        let plain = solved(&mut bench);
+        let fine = refined(&refined(&plain));
+        let reference = Reference::new(&fine);
+        let measure = |shape: &Solved, what: &str| {
+            let found = reference.deviation(shape);
+            println!(
+                "{name}, {what}: {} nodes, worst {:.4} %, rms {:.4} %, curves {:.4} %, energy off by {:.3} %",
+                shape.positions.len(),
+                100.0 * found.worst,
+                100.0 * found.rms,
+                100.0 * found.on_curves,
+                100.0 * (shape.energy / fine.energy - 1.0)
+            );
+            (shape.positions.len(), found)
+        };
+        let [first, second] = &coarse;
+        let meshes = [(first, "h"), (second, "h/2"), (&plain, "h/4")];
+        let meshes = meshes.map(|(shape, what)| measure(shape, what));
+        let mut before = plain.triangles.clone();
+        let scrambled = [0, 1, 2].map(|seed| {
+            scramble(&mut bench, seed, reach * reference.size);
+            let shape = solved(&mut bench);
+            assert!(shape.triangles != before, "{name}: nothing was scrambled");
+            before.clone_from(&shape.triangles);
+            measure(&shape, "h/4, scrambled").1
+        });
+        let figures = Self { meshes, scrambled };
+        println!(
+            "{name}: order {:.2} by the worst, {:.2} by rms",
+            figures.order(|d| d.worst),
+            figures.order(|d| d.rms)
+        );
+        figures
+    }
+
+    /// Order of the deviation in the mean spacing, from the coarsest to the finest mesh.
+    fn order(&self, of: impl Fn(&Deviation) -> f64) -> f64 {
+        let [(few, coarse), _, (many, fine)] = &self.meshes;
+        2.0 * (of(coarse) / of(fine)).ln() / (*many as f64 / *few as f64).ln()
+    }
+}
+
+/// How far control points are moved, as a part of the width: so far that edges are split.
+const REACH: f64 = 0.15;
+
+/// Holds a document to the promise, and to an order.
+fn is_independent(name: &str, document: &Document, [spacing, reach]: [f64; 2], order: f64) {
+    let figures = Figures::of(name, document, spacing, reach);
+    let [.., (nodes, finest)] = figures.meshes;
+    assert!(nodes < 10_500, "{name}: {nodes} are more than about 10,000");
+    for found in figures.scrambled.iter().chain([&finest]) {
+        assert!(found.worst < MOST, "{name}: {found:?}");
+    }
+    assert!(figures.order(|d| d.rms) > order, "{name}: {:?}", figures.meshes);
 }
 
 #[test]
 fn a_raised_disc_is_the_same_on_any_mesh() {
-    is_independent(Example::RaisedDisc);
+    is_independent("disc", &ductile_modeler::example(Example::RaisedDisc), [0.0226, REACH], 1.8);
 }
 
 #[test]
 fn a_cylinder_is_the_same_on_any_mesh() {
-    is_independent(Example::Cylinder);
+    is_independent("cylinder", &ductile_modeler::example(Example::Cylinder), [0.0355, REACH], 1.8);
 }
 
 #[test]
 fn a_closed_surface_on_six_points_is_the_same_on_any_mesh() {
-    is_independent(Example::Ball);
-}
-
-#[test]
-fn a_saddle_is_the_same_on_any_mesh() {
-    is_independent(Example::Saddle);
-}
-
-/// Leads some control points out and home again, in directions of its own for each seed. The document is as before; the
-/// triangulation, edited on the way, is not.
-fn scramble(bench: &mut Bench, seed: u32, reach: f64) {
-    let points: Vec<_> = bench.document().points.into_iter().collect();
-    for (place, (point, home)) in
-        points.iter().enumerate().filter(|(place, _)| place % 3 == seed as usize % 3)
-    {
-        let angle = 2.4 * (f64::from(seed) + 3.0 * place as f64);
-        let (sin, cos) = libm::sincos(angle);
-        let out = dvec3(cos, sin, libm::sin(0.7 * angle)) * reach;
-        bench.accept(Request::Grab(GrabTarget::Point(*point)));
-        for step in (1..=16).chain((0..16).rev()) {
-            bench.step(Some(*home + out * (f64::from(step) / 16.0)));
-            bench.step(Some(*home + out * (f64::from(step) / 16.0)));
-        }
-        bench.accept(Request::Drop);
-        bench.edit(Edit::Move { point: *point, to: *home });
-    }
-}
-
-/// Solves a document at h, h/2 and h/4, and at h/2 on three scrambled triangulations.
-fn is_independent_of_scrambling(name: &str, document: &Document, coarse: f64, most: f64) {
-    let fine = solve(document, 0.25 * coarse);
-    let size = fine.positions.iter().map(|p| p.length()).fold(0.0, f64::max);
-    let measure = |shape: &Solved, what: &str| {
-        let (worst, mean) = deviation(shape, &fine);
-        println!(
-            "{name}, {what}: {} nodes, worst {:.4} %, rms {:.4} % of the size",
-            shape.positions.len(),
-            100.0 * worst / size,
-            100.0 * mean / size
-        );
-        (worst, mean)
-    };
-    let (_, first) = measure(&solve(document, coarse), "h");
-    let mut bench = opened(document, 0.5 * coarse);
-    let half = solved(&mut bench);
-    let (worst, second) = measure(&half, "h/2");
-    assert!(worst < most * size, "{name}: {worst}");
-    assert!(first > 2.0 * second, "{name}: {first} {second}");
-    for seed in 0..3 {
-        scramble(&mut bench, seed, 0.2);
-        let scrambled = solved(&mut bench);
-        assert_ne!(scrambled.triangles, half.triangles, "{name}: nothing was scrambled");
-        let (worst, mean) = measure(&scrambled, "h/2, scrambled");
-        assert!(worst < most * size, "{name}: {worst}");
-        assert!(first > 2.0 * mean, "{name}: {first} {mean}");
-        let energy = (scrambled.energy / half.energy - 1.0).abs();
-        assert!(energy < 5e-3, "{name}: energy off by {energy}");
-    }
+    is_independent("ball", &ductile_modeler::example(Example::Ball), [0.0385, REACH], 1.8);
 }
 
 #[test]
 fn a_torus_of_three_curves_is_the_same_on_any_mesh() {
-    is_independent_of_scrambling("torus", &torus(), 0.5, 0.008);
+    // A closed curve through four points that is led further than its radius comes back to rest in another valley.
+    is_independent("torus", &torus(), [0.1024, 0.06], 1.8);
 }
 
+/// Nodes on a rim are fitted without the twist `uv`, since their half rings cannot hold it. Where the shape twists along its rim,
+/// the energy misses a strip of half an edge: the order is one, and the deviation small all the same.
 #[test]
-fn a_saddle_with_a_curve_inside_is_the_same_on_any_mesh() {
-    is_independent_of_scrambling("ridged saddle", &ridged_saddle(), 0.16, 0.008);
+fn a_saddle_with_a_closed_curve_inside_is_the_same_on_any_mesh() {
+    is_independent("ringed saddle", &ringed_saddle(), [0.0224, REACH], 0.9);
+}
+
+/// At the end of an open curve inside a surface the bending grows without bound, as `r^(-1/2)`: on meshes of even density nothing
+/// is exact to more than the first order (Grisvard, Elliptic Problems in Nonsmooth Domains, 1985).
+#[test]
+fn a_saddle_with_an_open_curve_inside_comes_nearer_on_finer_meshes() {
+    let figures = Figures::of("ridged saddle", &ridged_saddle(), 0.0217, REACH);
+    assert!(figures.order(|d| d.rms) > 1.0, "{:?}", figures.meshes);
 }

@@ -4,6 +4,8 @@
 pub mod dice;
 pub mod kinds;
 pub mod promise;
+pub mod reference;
+pub mod refined;
 pub mod round;
 pub mod scribble;
 pub mod shapes;

@@ -69,6 +69,35 @@ pub fn ridged_saddle() -> Document {
     document
 }
 
+/// A saddle in a closed curve, with a closed control curve inside of it that bends against it.
+#[must_use]
+pub fn ringed_saddle() -> Document {
+    let mut document = Document::default();
+    for (ring, radius, height, count) in [(0, 1.0, 0.35, 8), (1, 0.5, -0.1, 4)] {
+        let first = 8 * ring;
+        let through: Vec<PointId> = (first..first + count).map(|k| PointId(k + 1)).collect();
+        for (k, id) in through.iter().enumerate() {
+            let (sin, cos) = libm::sincos(k as f64 * std::f64::consts::TAU / f64::from(count));
+            let at = dvec3(radius * cos, radius * sin, height * (cos * cos - sin * sin));
+            document.points.insert(*id, at);
+        }
+        document.curves.insert(CurveId(ring + 1), Curve::new(through, true));
+    }
+    let mut triangles = vec![[8, 9, 10], [8, 10, 11]];
+    for k in 0..4 {
+        let (inner, next) = (8 + k, 8 + (k + 1) % 4);
+        let [a, b, c] = [2 * k, 2 * k + 1, (2 * k + 2) % 8];
+        triangles.extend([[a, b, inner], [b, next, inner], [b, c, next]]);
+    }
+    let curves = vec![
+        Embedding { curve: CurveId(1), along: (0..8).collect() },
+        Embedding { curve: CurveId(2), along: (8..12).collect() },
+    ];
+    let vertices = (1..=12).map(|id| SkeletonVertex::Control(PointId(id))).collect();
+    document.surfaces.insert(SurfaceId(1), Surface::new(Skeleton { vertices, triangles, curves }));
+    document
+}
+
 /// A Möbius strip on a curve along its core, which halves its five quadrilaterals.
 #[must_use]
 pub fn moebius() -> Document {

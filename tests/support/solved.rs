@@ -9,10 +9,29 @@ use glam::DVec3;
 pub struct Solved {
     /// Where its nodes are.
     pub positions: Vec<DVec3>,
+    /// Its unit normals there.
+    pub normals: Vec<DVec3>,
     /// Its triangles, over the nodes.
     pub triangles: Vec<[usize; 3]>,
+    /// The curves that it follows, in the order of its embeddings.
+    pub lines: Vec<Line>,
+    /// The nodes that control points hold apart from curves.
+    pub pins: Vec<usize>,
     /// Its energy.
     pub energy: f64,
+}
+
+/// A curve in a surface at rest.
+#[derive(Clone, Debug)]
+pub struct Line {
+    /// Its samples.
+    pub nodes: Vec<DVec3>,
+    /// The nodes of the surface there.
+    pub vertices: Vec<usize>,
+    /// Whether the last sample joins the first.
+    pub closed: bool,
+    /// The samples on its control points.
+    pub controls: Vec<usize>,
 }
 
 /// Opens a document at a density and brings it to rest.
@@ -44,7 +63,8 @@ pub fn solve(document: &Document, spacing: f64) -> Solved {
 /// When there is none or it does not come to rest.
 pub fn solved(bench: &mut Bench) -> Solved {
     let energy = bench.rest(600);
-    let shape = bench.modeler.model().surfaces.values().next().expect("the document has a surface");
+    let model = bench.modeler.model();
+    let (id, shape) = model.surfaces.first_key_value().expect("the document has a surface");
     let mut index = vec![usize::MAX; shape.mesh.vertex_slots()];
     let mut positions = Vec::new();
     for v in shape.mesh.vertices() {
@@ -53,7 +73,21 @@ pub fn solved(bench: &mut Bench) -> Solved {
     }
     let triangles =
         shape.mesh.faces().map(|f| shape.mesh.face_vertices(f).map(|v| index[v.index()])).collect();
-    Solved { positions, triangles, energy }
+    let normals = bench.modeler.relaxer().surface(*id, shape).map(|bound| bound.normals().to_vec());
+    let lines = shape.embeddings.iter().map(|embedded| {
+        let curve = &model.curves[&embedded.curve];
+        let vertices = embedded.vertices.iter().map(|v| index[v.index()]).collect();
+        let controls = curve.controls.iter().map(|(sample, _)| *sample as usize).collect();
+        Line { nodes: curve.nodes.clone(), vertices, closed: curve.closed, controls }
+    });
+    Solved {
+        positions,
+        normals: normals.expect("a surface at rest has a solver"),
+        triangles,
+        lines: lines.collect(),
+        pins: shape.pins.iter().map(|pin| index[pin.vertex.index()]).collect(),
+        energy,
+    }
 }
 
 /// The point of a triangle nearest to `p`: its projection if it falls inside, else the nearest of the edges'.
