@@ -89,7 +89,7 @@ fn a_document_built_by_acts_is_undone_to_nothing_and_redone_to_itself() {
     bench.rest(300);
     let above = square.map(|p| Through::Place(p * 0.6 + DVec3::Z * 1.5));
     bench.edit(Edit::Curve { through: above.to_vec(), closed: true });
-    bench.edit(Edit::Sweep { from: CurveId(1), to: CurveId(2), reversed: false });
+    bench.edit(Edit::Sweep { from: CurveId(1), to: CurveId(2), stretches: [None; 2], reversed: false });
     bench.rest(300);
     bench.edit(Edit::Release { point: PointId(5) });
     bench.edit(Edit::Rename { name: "Hat".into() });
@@ -181,7 +181,7 @@ fn a_sweep_between_curves_in_one_plane_is_a_flat_ring() {
         for corners in [outer, inner] {
             bench.edit(Edit::Curve { through: corners.map(Through::Place).to_vec(), closed: true });
         }
-        bench.edit(Edit::Sweep { from: CurveId(1), to: CurveId(2), reversed: false });
+        bench.edit(Edit::Sweep { from: CurveId(1), to: CurveId(2), stretches: [None; 2], reversed: false });
         let energy = bench.rest(300);
         assert!(energy.abs() < 1e-6, "energy {energy}");
     }

@@ -201,7 +201,12 @@ fn requests_that_make_no_sense_are_refused_with_a_reason() {
         }),
         Request::Edit(Edit::Curve { through: vec![Through::Place(DVec3::ZERO); 2], closed: false }),
         Request::Edit(Edit::Sheet { boundary: CurveId(1) }),
-        Request::Edit(Edit::Sweep { from: CurveId(1), to: CurveId(1), reversed: false }),
+        Request::Edit(Edit::Sweep {
+            from: CurveId(1),
+            to: CurveId(1),
+            stretches: [None; 2],
+            reversed: false,
+        }),
         Request::Edit(Edit::DeleteCurve { curve: CurveId(1) }),
         Request::Edit(Edit::Spacing { of: ductile_spec::SpacingOf::Document, spacing: Some(f64::NAN) }),
         Request::Edit(Edit::Spacing { of: ductile_spec::SpacingOf::Document, spacing: Some(1e-9) }),

@@ -72,7 +72,7 @@ impl Stream {
             3 => Edit::Curve { through: vec![Through::Point(point), twice, again], closed: true },
             4 => Edit::Curve { through: vec![Through::Point(point), Through::Point(other)], closed: false },
             5 => Edit::Sheet { boundary: curve },
-            6 => Edit::Sweep { from: curve, to: CurveId(1), reversed: false },
+            6 => Edit::Sweep { from: curve, to: CurveId(1), stretches: [None; 2], reversed: false },
             7 => Edit::Pin { surface, at },
             8 => Edit::Insert { curve, at },
             9 => Edit::Release { point },

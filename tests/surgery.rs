@@ -325,7 +325,12 @@ fn three_strips_that_make_up_a_moebius_strip_have_no_outside_in_common() {
     }
     // A third of a turn apart the shorter strip is the one that crosses over: three of them are one half twist too many.
     for (from, to) in [(1, 2), (2, 3), (3, 1)] {
-        bench.edit(Edit::Sweep { from: CurveId(from), to: CurveId(to), reversed: false });
+        bench.edit(Edit::Sweep {
+            from: CurveId(from),
+            to: CurveId(to),
+            stretches: [None; 2],
+            reversed: false,
+        });
     }
     assert_eq!(bench.document().surfaces.len(), 3);
     let why = refusal(&mut bench, Edit::Propagate { surface: SurfaceId(1) });
@@ -521,7 +526,10 @@ fn figure_3_1_makes_a_torus_of_three_curves() {
     // f) The upper curve is expanded to match the lower; g) they are skinned, and both seams smoothed.
     act(&mut bench, Edit::Expand { curve: CurveId(3), to: Extent::Like(CurveId(1)) });
     bench.rest(600);
-    let kinds = act(&mut bench, Edit::Sweep { from: CurveId(1), to: CurveId(3), reversed: false });
+    let kinds = act(
+        &mut bench,
+        Edit::Sweep { from: CurveId(1), to: CurveId(3), stretches: [None; 2], reversed: false },
+    );
     assert_eq!(kinds, [(1, 0, 2, true), (2, 0, 2, true)]);
     bench.rest(600);
     let kinds = act(&mut bench, Edit::Smooth { curve: CurveId(1) });
@@ -683,7 +691,7 @@ fn ball_and(disc: bool) -> Bench {
     if disc {
         bench.edit(Edit::Sheet { boundary: CurveId(1) });
     } else {
-        bench.edit(Edit::Sweep { from: CurveId(1), to: CurveId(2), reversed: false });
+        bench.edit(Edit::Sweep { from: CurveId(1), to: CurveId(2), stretches: [None; 2], reversed: false });
         // A thin plate would bulge out of the ball; this stays a cylinder.
         let of = ductile_spec::ObjectiveOf::Surface(SurfaceId(2));
         bench.edit(Edit::Objective { of, objective: Some(ductile_spec::Objective::Fair) });
@@ -802,7 +810,10 @@ fn a_loop_never_leaves_a_vertex_with_more_neighbours_than_can_be_solved() {
 fn a_surface_follows_a_curve_that_has_lost_its_first_point() {
     let mut bench = two_discs();
     bench.edit(Edit::Release { point: PointId(5) });
-    let kinds = act(&mut bench, Edit::Sweep { from: CurveId(1), to: CurveId(2), reversed: false });
+    let kinds = act(
+        &mut bench,
+        Edit::Sweep { from: CurveId(1), to: CurveId(2), stretches: [None; 2], reversed: false },
+    );
     assert_eq!(kinds, [(1, 1, 1, true), (2, 1, 1, true), (3, 0, 2, true)]);
 }
 

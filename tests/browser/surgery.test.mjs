@@ -2,15 +2,17 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { atRest, distance, documentOf, drawn, topology, withDocument } from "./support/model.mjs";
+import { atRest, distance, documentOf, drawn, point, topology, withDocument } from "./support/model.mjs";
 import { inspect, until, untilInspect } from "./support/page.mjs";
 import { at, pixels } from "./support/pixels.mjs";
-import { ringedDisc, twoDiscs, twoRings } from "./support/rings.mjs";
+import { ringOverDisc, ringedDisc, twoDiscs, twoRings } from "./support/rings.mjs";
 
-/** A place on a curve clear of panels and toasts: the sample farthest to the left. */
+/** A place on a curve, clear of panels and toasts and, if that can be, of control points: the sample farthest to the left. */
 function onCurve(state, id) {
   const { screen } = state.curves.find((curve) => curve.id === id);
-  return screen.reduce((left, place) => (place[0] < left[0] ? place : left));
+  const clear = (place) => state.points.every((entry) => distance(entry.screen, place) > 14);
+  const free = screen.filter(clear);
+  return (free.length > 0 ? free : screen).reduce((left, place) => (place[0] < left[0] ? place : left));
 }
 
 /** The middle of a curve's picture. */
@@ -126,6 +128,64 @@ test("a sweep shows its ties over the second curve, R crosses them, and the skin
     await untilInspect(page, ({ underWay }) => underWay);
     await page.keyboard.press("Escape");
     await untilInspect(page, ({ underWay, tool }) => !underWay && tool === "sweep");
+    await page.keyboard.press("Escape");
+    await untilInspect(page, ({ tool }) => tool === "shape");
+  });
+});
+
+test("a sweep takes stretches from control point to control point, and shows them before the click", async () => {
+  await withDocument(twoRings, async (page, before) => {
+    const place = (id) => point(before, id).screen;
+    await page.keyboard.press("w");
+    await hover(page, place(1), ({ hover }) => hover === "point 1");
+    await page.mouse.click(...place(1));
+    await untilInspect(page, ({ underWay }) => underWay);
+    await until(page, () => /at which the stretch ends/.test(document.getElementById("hint").textContent));
+    await hover(page, place(2), ({ hover, marked }) => hover === "point 2" && marked.lines === 1);
+    await page.mouse.click(...place(2));
+    await until(page, () => /other curve/.test(document.getElementById("hint").textContent));
+    // Escape takes the last step back, then the next.
+    await page.mouse.click(...place(5));
+    await until(page, () => /stretch ends/.test(document.getElementById("hint").textContent));
+    await page.keyboard.press("Escape");
+    await until(page, () => /other curve/.test(document.getElementById("hint").textContent));
+    await page.mouse.click(...place(5));
+    await until(page, () => /stretch ends/.test(document.getElementById("hint").textContent));
+    await hover(page, place(6), ({ hover, marked }) => hover === "point 6" && marked.lines === 26);
+    const swept = await clickFor(page, place(6), "Sweep");
+    assert.deepEqual(swept.surfaces.map(({ summary }) => [summary.euler, summary.boundaries]), [[1, 1]]);
+    const { curves, surfaces } = await documentOf(page);
+    const rims = surfaces[1].skeleton.curves.map(({ curve }) => curves[curve].through);
+    assert.deepEqual(rims, [[1, 2], [5, 6]]);
+    assert.equal(Object.keys(curves).length, 4, "both rings were divided");
+    await page.keyboard.press("Control+z");
+    assert.equal((await atRest(page, ({ act }) => act === "Undo Sweep")).document, before.document);
+  });
+});
+
+test("a free curve is embedded in the surface below it, which comes to the curve", async () => {
+  await withDocument(ringOverDisc, async (page, before) => {
+    const ring = onCurve(before, 2);
+    const disc = [0, 1].map((axis) => (point(before, 1).screen[axis] + point(before, 4).screen[axis]) / 2);
+    const below = disc.map((value, axis) => value + 0.12 * (middleOf(before, 1)[axis] - value));
+    await page.keyboard.press("i");
+    await until(page, () => /curve that should lie in a surface/.test(document.getElementById("hint").textContent));
+    await page.mouse.click(...ring);
+    await untilInspect(page, ({ underWay }) => underWay);
+    await hover(page, below, ({ marked }) => marked.tinted === 1 && marked.lines > 10);
+    const embedded = await clickFor(page, below, "Embed");
+    assert.deepEqual(embedded.curves.map(({ id, role }) => [id, role]), [[1, "Boundary"], [2, "Inner"]]);
+    const { points, surfaces } = await documentOf(page);
+    assert.deepEqual(points, JSON.parse(before.document).points, "the curve has not moved");
+    assert.equal(surfaces[1].skeleton.curves.length, 2);
+    assert.ok(embedded.figures.energy > 1, "the disc has risen to it");
+    // The same again is refused with a reason.
+    await page.mouse.click(...ring);
+    await untilInspect(page, ({ underWay }) => underWay);
+    await page.mouse.click(...below);
+    await untilInspect(page, ({ toast }) => toast?.includes("lies in surface 1 already"));
+    await page.keyboard.press("Control+z");
+    assert.equal((await atRest(page, ({ act }) => act === "Undo Embed")).document, before.document);
     await page.keyboard.press("Escape");
     await untilInspect(page, ({ tool }) => tool === "shape");
   });

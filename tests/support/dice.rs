@@ -133,7 +133,12 @@ fn edit(dice: &mut Dice, model: &Model) -> Edit {
             let (from, to) = (On { surface, at }, On { surface: other, at: there });
             Edit::Merge { from, to, radius: model.spacing() * (0.7 + dice.unit()), keep: dice.coin() }
         }
-        27 => Edit::Sweep { from: curve, to: dice.pick(&curves).unwrap_or(curve), reversed: dice.coin() },
+        27 => Edit::Sweep {
+            from: curve,
+            to: dice.pick(&curves).unwrap_or(curve),
+            stretches: [None; 2],
+            reversed: dice.coin(),
+        },
         28 => Edit::Sheet { boundary: curve },
         29 => {
             let radius = 0.2 + 1.5 * dice.unit();

@@ -1,10 +1,11 @@
 //! Why the modeler refuses: typed, with the offending thing in the message, in words for the designer.
 
 mod overlay;
+mod trim;
 
 use crate::patch::FillError;
 use ductile_mesh::io::{obj::ObjError, ply::PlyError};
-use ductile_mesh::{BridgeError, BuildError, GlueError, IntersectError, PathError};
+use ductile_mesh::{BridgeError, BuildError, GlueError, PathError};
 use ductile_patch::DisplacementError;
 use ductile_patch::RibbonError;
 use ductile_patch::cage::CageError;
@@ -16,6 +17,7 @@ use thiserror::Error;
 
 pub(crate) use overlay::ShadowError;
 use overlay::displaced;
+pub use trim::TrimError;
 
 /// Why a request was refused. The model is as it was before.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -122,6 +124,32 @@ pub enum ModelError {
         /// Where.
         at: DVec3,
     },
+    /// The surface has the curve already.
+    #[error("{curve} lies in {surface} already")]
+    LiesThere {
+        /// The curve.
+        curve: CurveId,
+        /// The surface.
+        surface: SurfaceId,
+    },
+    /// A part of a curve has nothing below it on a surface, or something else than the part beside it.
+    #[error(
+        "{curve} does not lie over {surface} at {at}: it leads beyond a rim there, or the surface below is another part of it"
+    )]
+    NotOver {
+        /// The curve.
+        curve: CurveId,
+        /// The surface.
+        surface: SurfaceId,
+        /// Where.
+        at: DVec3,
+    },
+    /// Two stretches of a curve have a part in common.
+    #[error("the stretches of {0} overlap: nothing lies between them there")]
+    StretchesOverlap(CurveId),
+    /// A stretch begins where it ends.
+    #[error("a stretch of {0} needs two different control points")]
+    NoStretch(CurveId),
     /// A size is not a usable number.
     #[error("a size must be a positive number up to 1e6")]
     BadSize,
@@ -280,7 +308,7 @@ pub enum ModelError {
         surface: SurfaceId,
     },
     /// A sweep needs two different curves.
-    #[error("a sweep needs two different closed curves")]
+    #[error("a sweep needs two different curves, or two stretches of one")]
     SweepToItself,
     /// Two curves share a control point, so that a skin between them would be pinched there.
     #[error("{0} and {1} share {2}: a skin between them would be pinched there")]
@@ -481,45 +509,9 @@ pub enum ModelError {
         "{0} has no room for the hole here: a rim or a curve is too near, or the surface bends too sharply. Choose another place, or a smaller radius"
     )]
     NoRoom(SurfaceId),
-    /// Two surfaces are trimmed against each other.
-    #[error("{0} cannot be trimmed against itself; choose two surfaces")]
-    TrimsItself(SurfaceId),
-    /// The surfaces do not meet.
-    #[error("{0} and {1} do not meet: move them so that they run through one another")]
-    NoMeeting(SurfaceId, SurfaceId),
-    /// The line in which they meet ends inside both.
-    #[error(
-        "{one} and {other} meet in a line that divides neither of them, for it ends inside at {at}; let one of them run right through the other"
-    )]
-    OpenMeeting {
-        /// The first.
-        one: SurfaceId,
-        /// The second.
-        other: SurfaceId,
-        /// Where it ends.
-        at: DVec3,
-    },
-    /// What is cut stands inside a surface that runs on there.
-    #[error(
-        "the line in which they meet does not divide {0}: what is cut stands on it, and can neither be joined smoothly nor at an angle"
-    )]
-    StandsInside(SurfaceId),
-    /// An angle between two surfaces is none.
-    #[error("the angle of a join is above 0° and at most 180°; a smooth join has none")]
-    BadJoinAngle,
-    /// How the surfaces meet cannot be told.
-    #[error("{one} and {other} touch rather than cross: {why}")]
-    Untold {
-        /// The first.
-        one: SurfaceId,
-        /// The second.
-        other: SurfaceId,
-        /// Why.
-        why: IntersectError,
-    },
-    /// No line bounds both parts that are to stay.
-    #[error("the parts of {0} and {1} that are to stay do not meet anywhere")]
-    PartsApart(SurfaceId, SurfaceId),
+    /// Two surfaces cannot be trimmed.
+    #[error(transparent)]
+    Trim(#[from] TrimError),
     /// A curve that is to lie in a surface crosses another one there.
     #[error(
         "{curve} would run over a control point of {surface} that is not its own, or cross a curve where there is no room for one; release that point, or move the curve"

@@ -32,7 +32,7 @@ mod shape;
 mod skeleton;
 mod surgery;
 
-pub use error::ModelError;
+pub use error::{ModelError, TrimError};
 pub use example::example;
 pub use model::Model;
 pub use modeler::Modeler;

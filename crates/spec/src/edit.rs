@@ -43,13 +43,17 @@ pub enum Edit {
         /// The boundary.
         boundary: CurveId,
     },
-    /// Skins the space between two closed curves, a cylinder, or between two open ones, a strip (thesis section
+    /// Skins the space between two closed curves, a cylinder, or between two open ones or stretches, a strip (thesis section
     /// 7.3.2, `sweep`).
     Sweep {
         /// One end.
         from: CurveId,
         /// The other end.
         to: CurveId,
+        /// Of either only the stretch between two of its control points: on a closed curve from the first to the second, in
+        /// the curve's own sense. The curve is divided there; its parts keep their directions. `None` takes all of it.
+        #[serde(default)]
+        stretches: [Option<[PointId; 2]>; 2],
         /// Whether the second is run through the other way than lies nearest: a twist, or a surface with one side.
         #[serde(default)]
         reversed: bool,
@@ -62,6 +66,14 @@ pub enum Edit {
         along: Vec<DVec3>,
         /// Whether it closes.
         closed: bool,
+    },
+    /// Makes a curve that lies near a surface a control curve of it: the curve stays, the surface moves to it (thesis
+    /// sections 4.2.3 and 7.3.3).
+    Embed {
+        /// Which curve.
+        curve: CurveId,
+        /// Which surface.
+        surface: SurfaceId,
     },
     /// Destroys a region; the curves around it stay, as rims (thesis section 7.3.2, `burnout`).
     Burnout {
@@ -385,6 +397,7 @@ impl Edit {
             Self::Sheet { .. } => "Sheet",
             Self::Sweep { .. } => "Sweep",
             Self::SLoop { .. } => "Draw",
+            Self::Embed { .. } => "Embed",
             Self::Burnout { .. } => "Burn out",
             Self::Split { .. } => "Split",
             Self::Crease { .. } => "Crease",

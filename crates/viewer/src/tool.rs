@@ -31,7 +31,7 @@ pub use ghost::ghost_line;
 pub use handle::{Arm, handles_at};
 pub use kind::ToolKind;
 pub use options::{Options, Toggle};
-pub use pair::Pick;
+pub use pair::{Pick, stretch};
 pub use path::Corner;
 pub use preview::{mean_radius, ties, tube};
 pub use ribbon::{handles_along, surface_of};
@@ -126,6 +126,8 @@ pub struct Toolbox {
     kind: ToolKind,
     corners: Vec<Corner>,
     first: Option<Pick>,
+    /// Where a stretch begins whose other end is awaited.
+    end: Option<PointId>,
     options: Options,
 }
 
@@ -209,6 +211,7 @@ impl Toolbox {
                 "Click where a cage should stand, or drag vertices, edges and faces of one. E extrudes a face."
             }
             ToolKind::Sweep
+            | ToolKind::Embed
             | ToolKind::Glue
             | ToolKind::Merge
             | ToolKind::Trim
@@ -232,7 +235,8 @@ impl Toolbox {
             ToolKind::Burnout => surgery::burn_out(aim),
             ToolKind::Crease => surgery::crease(aim, around),
             ToolKind::Split => surgery::split(aim, around),
-            ToolKind::Sweep => self.pick_sweep(aim.hit, around.structure),
+            ToolKind::Sweep => self.pick_sweep(aim.hit, around),
+            ToolKind::Embed => self.pick_embed(aim),
             ToolKind::Glue => self.pick_glue(aim.rim),
             ToolKind::Merge => self.pick_merge(Place::of(aim.hit), around.radius),
             ToolKind::Trim => self.pick_trim(Place::of(aim.hit)),
@@ -257,6 +261,7 @@ impl Toolbox {
                 self.corners.clear();
                 Vec::new()
             }
+            ToolKey::Back | ToolKey::Escape if self.end.take().is_some() => Vec::new(),
             ToolKey::Back | ToolKey::Escape
                 if self.kind != ToolKind::Match && self.first.take().is_some() =>
             {
@@ -272,7 +277,7 @@ impl Toolbox {
     /// Whether Backspace belongs to the tool rather than to the selection.
     #[must_use]
     pub fn is_under_way(&self) -> bool {
-        !self.corners.is_empty() || self.first.is_some()
+        !self.corners.is_empty() || self.first.is_some() || self.end.is_some()
     }
 
     /// Forgets what the model no longer has.
@@ -286,8 +291,12 @@ impl Toolbox {
         }
         let has = |id: SurfaceId| structure.surfaces.iter().any(|surface| surface.id == id);
         self.corners.retain(|corner| corner.surface.is_none_or(has));
-        self.first = self.first.filter(|first| match first {
-            Pick::Curve(id) => span(structure, *id).is_some(),
+        self.end = self.end.filter(|end| entry(structure, *end).is_some());
+        self.first = self.first.filter(|first| match *first {
+            Pick::Curve(id) => span(structure, id).is_some(),
+            Pick::Stretch(id, ends) => {
+                span(structure, id).is_some() && ends.iter().all(|end| entry(structure, *end).is_some())
+            }
             Pick::Place(place) => has(place.surface),
         });
         if self.kind == ToolKind::Match && self.first.is_none() {

@@ -39,6 +39,22 @@ export const twoRings = {
   curves: { 1: through(1), 2: through(5) },
 };
 
+/** A disc, surface 1 with its rim curve 1, and a free circle over it, curve 2. */
+export const ringOverDisc = {
+  ...twoRings,
+  name: "Ring over disc",
+  points: { ...circle(1, 1), ...circle(5, 0.5, 0.3) },
+  surfaces: {
+    1: {
+      skeleton: {
+        vertices: [1, 2, 3, 4],
+        triangles: [[0, 1, 2], [0, 2, 3]],
+        curves: [{ curve: 1, along: [0, 1, 2, 3] }],
+      },
+    },
+  },
+};
+
 /** Two flat discs over one another: surfaces 1 and 2 with their rims, curves 1 and 2. */
 export const twoDiscs = {
   ...twoRings,

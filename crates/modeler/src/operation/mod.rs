@@ -11,6 +11,7 @@ pub(crate) mod delete;
 mod delete_face;
 mod density;
 mod displace;
+mod embed;
 mod expand;
 mod extrude;
 mod fill;
@@ -59,7 +60,7 @@ pub(crate) use fill::{forget_lost as forget_lost_planes, found_loop, mended};
 pub(crate) use import::import;
 pub(crate) use insert::{insert, insert_there};
 pub(crate) use pin::pin;
-pub(crate) use ribbon::forget_lost;
+pub(crate) use ribbon::{forget_lost, kept_direction};
 pub(crate) use shadow::forget_lost as forget_lost_shadows;
 pub(crate) use trim::meeting;
 
@@ -144,7 +145,10 @@ fn act(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result<(), ModelErr
         Edit::Move { point, to } => point::shift(model, *point, *to),
         Edit::Curve { through, closed } => curve::curve(model, through, *closed),
         Edit::Sheet { boundary } => sheet::sheet(model, *boundary),
-        Edit::Sweep { from, to, reversed } => sweep::sweep(model, *from, *to, *reversed),
+        Edit::Sweep { from, to, stretches: [one, other], reversed } => {
+            sweep::sweep(model, [(*from, *one), (*to, *other)], *reversed)
+        }
+        Edit::Embed { curve, surface } => embed::embed(model, *curve, *surface),
         Edit::Burnout { region } => burnout::burnout(model, *region),
         Edit::Split { border } => split::split(model, *border),
         Edit::Crease { border } => crease::crease(model, *border),

@@ -59,7 +59,7 @@ pub(super) fn ribbon(
 }
 
 /// The direction that a document keeps for a unit vector that was reckoned.
-pub(super) fn kept_direction(direction: DVec3) -> DVec3 {
+pub(crate) fn kept_direction(direction: DVec3) -> DVec3 {
     let kept = |x: f64| round_to_digits(x, DIRECTION_DIGITS) + 0.0;
     // Noise of a sine is no digit.
     DVec3::from_array(direction.to_array().map(|x| if x.abs() < 1e-12 { 0.0 } else { kept(x) }))

@@ -1,17 +1,20 @@
-//! `sweep`: skins the space between two curves, closed or open (thesis section 7.3.2).
+//! `sweep`: skins the space between two curves, closed or open, or between stretches of curves (thesis section 7.3.2).
 
 use crate::error::ModelError;
 use crate::model::Model;
 use crate::operation::sheet::add;
 use crate::skeleton::sweep_skeleton;
+use crate::surgery::dividing::{Part, divide_at};
 use ductile_spec::{CurveId, PointId, Surface};
 use glam::DVec3;
+use std::collections::BTreeMap;
 
-/// Makes a cylinder between two closed curves, or a strip between two open ones.
-pub(crate) fn sweep(model: &mut Model, from: CurveId, to: CurveId, reversed: bool) -> Result<(), ModelError> {
-    if from == to {
-        return Err(ModelError::SweepToItself);
-    }
+/// A curve, or its stretch between two control points: on a closed one from the first to the second.
+type Side = (CurveId, Option<[PointId; 2]>);
+
+/// Makes a cylinder between two closed curves, or a strip between two open ones or stretches.
+pub(crate) fn sweep(model: &mut Model, sides: [Side; 2], reversed: bool) -> Result<(), ModelError> {
+    let [from, to] = stretches(model, sides)?;
     let ((low, closed), (high, other)) = (points(model, from)?, points(model, to)?);
     if closed != other {
         return Err(ModelError::UnlikeCurves(from, to));
@@ -21,6 +24,35 @@ pub(crate) fn sweep(model: &mut Model, from: CurveId, to: CurveId, reversed: boo
     }
     let skeleton = sweep_skeleton((from, &low), (to, &high), closed, reversed);
     add(model, Surface::new(skeleton))
+}
+
+/// Curves of which nothing is left out: those that are wanted only in part are divided.
+fn stretches(model: &mut Model, sides: [Side; 2]) -> Result<[CurveId; 2], ModelError> {
+    let [(from, first), (to, second)] = sides;
+    if from == to && (first.is_none() || second.is_none()) {
+        return Err(ModelError::SweepToItself);
+    }
+    let mut ends: BTreeMap<CurveId, Vec<PointId>> = BTreeMap::new();
+    for (curve, stretch) in sides {
+        let Some([a, b]) = stretch else { continue };
+        if a == b {
+            return Err(ModelError::NoStretch(curve));
+        }
+        ends.entry(curve).or_default().extend([a, b]);
+    }
+    let mut parts: BTreeMap<CurveId, (bool, Vec<Part>)> = BTreeMap::new();
+    for (curve, points) in ends {
+        let closed = model.curves.get(&curve).ok_or(ModelError::NoCurve(curve))?.closed;
+        parts.insert(curve, (closed, divide_at(model, curve, &points)?));
+    }
+    let part = |(curve, stretch): Side| -> Result<CurveId, ModelError> {
+        let (Some([a, b]), Some((closed, parts))) = (stretch, parts.get(&curve)) else { return Ok(curve) };
+        // An open curve leads only one way between two of its points.
+        let is_it = |part: &&Part| part.ends == [a, b] || (!closed && part.ends == [b, a]);
+        parts.iter().find(is_it).map(|part| part.curve).ok_or(ModelError::StretchesOverlap(curve))
+    };
+    let [from, to] = [part(sides[0])?, part(sides[1])?];
+    if from == to { Err(ModelError::StretchesOverlap(sides[0].0)) } else { Ok([from, to]) }
 }
 
 /// The control points of a curve, in order, and whether it closes.

@@ -8,7 +8,7 @@
 mod lines;
 mod ribbon;
 
-use crate::error::ModelError;
+use crate::error::{ModelError, TrimError};
 use crate::model::Model;
 use crate::operation::delete::forget_lost_curves;
 use crate::operation::smooth;
@@ -46,13 +46,13 @@ pub(super) fn trim(
     };
     let common: Vec<CurveId> = curves.iter().filter(counts).map(|line| line.curve).collect();
     if common.is_empty() {
-        return Err(ModelError::PartsApart(one, other));
+        return Err(TrimError::PartsApart(one, other).into());
     }
     if let Some(stands) = common.iter().find(|curve| !of.iter().all(|of| of.contains(curve)))
         && (is_smooth || matches!(ribbon, Some(JoinRibbon::Angle(_))))
     {
         let on = if of[0].contains(stands) { other } else { one };
-        return Err(ModelError::StandsInside(on));
+        return Err(TrimError::StandsInside(on).into());
     }
     let mut leaving = Vec::new();
     if let (Some(fitted), Some(ribbon)) = (&fitted, ribbon) {
@@ -91,14 +91,14 @@ pub(super) fn trim(
 /// Refuses what is no trim, whatever the surfaces are.
 fn check(kept: [On; 2], is_smooth: bool, ribbon: Option<JoinRibbon>) -> Result<(), ModelError> {
     if kept[0].surface == kept[1].surface {
-        return Err(ModelError::TrimsItself(kept[0].surface));
+        return Err(TrimError::TrimsItself(kept[0].surface).into());
     }
     if kept.iter().any(|on| !on.at.is_finite()) {
         return Err(ModelError::BadPosition);
     }
     match ribbon {
         Some(JoinRibbon::Angle(angle)) if is_smooth || !(angle > 0.0 && angle <= core::f64::consts::PI) => {
-            Err(ModelError::BadJoinAngle)
+            Err(TrimError::BadJoinAngle.into())
         }
         _ => Ok(()),
     }

@@ -5,6 +5,7 @@
 //! ([`pieces`]), which rims are laid on one another ([`joining`], [`rims`]), which way a curve takes over a surface ([`tracing`]),
 //! and with which vertices a surface follows a curve that is there already ([`following`]).
 
+pub(crate) mod dividing;
 pub(crate) mod following;
 pub(crate) mod joining;
 pub(crate) mod opening;

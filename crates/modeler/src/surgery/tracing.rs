@@ -93,7 +93,9 @@ pub(crate) fn trace(
 ) -> Result<Trace, ModelError> {
     settle_stops(model, id, &mut stops, closed)?;
     for _ in 0..MOST_HUBS {
-        let (trace, path) = lie(model, id, &stops, closed)?;
+        let spacing = model.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?.spacing;
+        let samples = fair_samples(&stops, closed, spacing)?;
+        let (trace, path) = lie(model, id, &stops, closed, &samples)?;
         let Some(stop) = next_hub(model, id, &trace, &path)? else { return Ok(trace) };
         match stop {
             Hub::At(k, stop) => stops[k] = stop,
@@ -130,7 +132,12 @@ pub(crate) fn retrace(
     stops: &[Stop],
     closed: bool,
 ) -> Result<(Trace, Option<Crossing>), ModelError> {
-    let (trace, path) = lie(model, id, stops, closed)?;
+    let line = model.curves.get(&curve).ok_or(ModelError::NoCurve(curve))?;
+    let count = line.nodes.len();
+    let inside =
+        |(first, edges): (usize, usize)| (1..edges).map(|k| line.nodes[(first + k) % count]).collect();
+    let samples: Vec<Vec<DVec3>> = line.stretches().into_iter().map(inside).collect();
+    let (trace, path) = lie(model, id, stops, closed, &samples)?;
     let shape = model.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?;
     let index_of: Vec<usize> = trace.of_stops.iter().map(|place| path.places[*place]).collect();
     for meeting in &path.meetings {
@@ -230,8 +237,14 @@ fn nearest_on(
     best.map(|(_, near)| near)
 }
 
-/// Lays the fair curve through the stops on the surface, without changing anything.
-fn lie(model: &Model, id: SurfaceId, stops: &[Stop], closed: bool) -> Result<(Trace, Path), ModelError> {
+/// Lays a curve through the stops on the surface, and through its samples after each, without changing anything.
+fn lie(
+    model: &Model,
+    id: SurfaceId,
+    stops: &[Stop],
+    closed: bool,
+    samples: &[Vec<DVec3>],
+) -> Result<(Trace, Path), ModelError> {
     let shape = model.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?;
     let place = |at: DVec3| nearest_place(&shape.mesh, &shape.positions, at).ok_or(ModelError::NoSurface(id));
     let at_stop = |stop: &Stop| match stop.point {
@@ -239,8 +252,7 @@ fn lie(model: &Model, id: SurfaceId, stops: &[Stop], closed: bool) -> Result<(Tr
         None => place(stop.at),
     };
     let fail = |why| ModelError::NoWay { surface: id, why };
-    // A fair curve may leave the surface so far that its shadow on it crosses itself: straight ways are the last resort.
-    let fair = fair_samples(stops, closed, shape.spacing)?;
+    // A curve may leave the surface so far that its shadow on it crosses itself: straight ways are the last resort.
     let mut reason = None;
     for is_fair in [true, false] {
         let (mut places, mut of_stops) = (Vec::new(), Vec::new());
@@ -248,7 +260,7 @@ fn lie(model: &Model, id: SurfaceId, stops: &[Stop], closed: bool) -> Result<(Tr
             of_stops.push(places.len());
             places.push(at_stop(stop)?);
             if is_fair {
-                for at in fair.get(k).into_iter().flatten() {
+                for at in samples.get(k).into_iter().flatten() {
                     places.push(place(*at)?);
                 }
             }

@@ -21,6 +21,8 @@ pub enum ToolKind {
     Sheet,
     /// Skins the space between two curves.
     Sweep,
+    /// Makes curves near a surface control curves of it.
+    Embed,
     /// Destroys a region.
     Burnout,
     /// Makes creases, and smooths them.
@@ -49,13 +51,14 @@ pub enum ToolKind {
 
 impl ToolKind {
     /// Those of the bar.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 18] = [
         Self::Shape,
         Self::Point,
         Self::Curve,
         Self::Draw,
         Self::Sheet,
         Self::Sweep,
+        Self::Embed,
         Self::Burnout,
         Self::Crease,
         Self::Split,
@@ -79,6 +82,7 @@ impl ToolKind {
             Self::Draw => "draw",
             Self::Sheet => "sheet",
             Self::Sweep => "sweep",
+            Self::Embed => "embed",
             Self::Burnout => "burnout",
             Self::Crease => "crease",
             Self::Split => "split",
@@ -104,6 +108,7 @@ impl ToolKind {
             "d" => Some(Self::Draw),
             "s" => Some(Self::Sheet),
             "w" => Some(Self::Sweep),
+            "i" => Some(Self::Embed),
             "b" => Some(Self::Burnout),
             "k" => Some(Self::Crease),
             "x" => Some(Self::Split),
@@ -122,7 +127,10 @@ impl ToolKind {
     /// Whether it takes control points.
     #[must_use]
     pub fn wants_points(self) -> bool {
-        matches!(self, Self::Shape | Self::Point | Self::Curve | Self::Draw | Self::Ribbon | Self::Cage)
+        matches!(
+            self,
+            Self::Shape | Self::Point | Self::Curve | Self::Draw | Self::Sweep | Self::Ribbon | Self::Cage
+        )
     }
 
     /// Whether it takes curves.
@@ -162,6 +170,9 @@ impl ToolKind {
             }
             (Self::Ribbon, Hit::Point { id, .. }) => {
                 entry(structure, *id).is_some_and(|point| point.role == PointRole::Surface)
+            }
+            (Self::Sweep, Hit::Point { id, .. }) => {
+                entry(structure, *id).is_some_and(|point| point.role == PointRole::Curve)
             }
             (Self::Draw | Self::Crease | Self::Split | Self::Ribbon, Hit::Curve { id, .. }) => {
                 curve(*id).is_some_and(|curve| curve.role != CurveRole::Free)

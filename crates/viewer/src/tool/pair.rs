@@ -1,14 +1,16 @@
 //! Tools that want two things: the first is kept until the second is clicked, then both become one act.
 
-use super::{Act, Options, Place, ToolKind, Toolbox, say, span};
+use super::{Act, Aim, Options, Place, Surroundings, ToolKind, Toolbox, say, span};
 use crate::Hit;
-use ductile_spec::{CurveId, Edit, Extent, Structure};
+use ductile_spec::{Curve, CurveId, Document, Edit, Extent, PointId, Structure};
 
 /// What was clicked first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Pick {
     /// A curve.
     Curve(CurveId),
+    /// The stretch of a curve between two control points: on a closed one from the first to the second, in its sense.
+    Stretch(CurveId, [PointId; 2]),
     /// A place on a surface, or on a rim of it.
     Place(Place),
 }
@@ -16,8 +18,17 @@ pub enum Pick {
 impl Toolbox {
     pub(super) fn pair_hint(&self) -> &'static str {
         match (self.kind, self.first.is_some()) {
-            (ToolKind::Sweep, false) => "Click the first of two curves, both closed or both open.",
-            (ToolKind::Sweep, true) => "Now click the other curve. R runs through it the other way.",
+            (ToolKind::Sweep, _) if self.end.is_some() => {
+                "Click the control point at which the stretch ends. On a closed curve it leads there in the curve's own sense."
+            }
+            (ToolKind::Sweep, false) => {
+                "Click the first of two curves, both closed or both open; or the two control points at the ends of a stretch."
+            }
+            (ToolKind::Sweep, true) => {
+                "Now click the other curve, or the ends of a stretch of it. R runs through it the other way."
+            }
+            (ToolKind::Embed, false) => "Click the curve that should lie in a surface. It stays where it is.",
+            (ToolKind::Embed, true) => "Now click the surface that should pass through it.",
             (ToolKind::Glue, false) => "Click the first of two rims. It stays where it is.",
             (ToolKind::Glue, true) => {
                 "Now click the other rim. S: with a band between them or without. R: the other way round."
@@ -42,9 +53,15 @@ impl Toolbox {
     #[must_use]
     pub fn sweep_from(&self) -> Option<CurveId> {
         match self.first {
-            Some(Pick::Curve(curve)) => Some(curve),
+            Some(Pick::Curve(curve) | Pick::Stretch(curve, _)) => Some(curve),
             _ => None,
         }
+    }
+
+    /// The control point at which a stretch begins whose other end is awaited.
+    #[must_use]
+    pub fn stretch_from(&self) -> Option<PointId> {
+        self.end
     }
 
     /// The first place of a tool that wants two.
@@ -56,23 +73,53 @@ impl Toolbox {
         }
     }
 
-    pub(super) fn pick_sweep(&mut self, hit: Option<&Hit>, structure: &Structure) -> Vec<Act> {
-        let Some(curve) = curve_hit(hit) else { return say("There is no curve here.") };
-        let is_closed = |id| span(structure, id).is_some_and(|span| span.closed);
-        match self.sweep_from() {
-            None => {
-                self.first = Some(Pick::Curve(curve));
-                Vec::new()
+    pub(super) fn pick_sweep(&mut self, hit: Option<&Hit>, around: Surroundings<'_>) -> Vec<Act> {
+        let is_closed = |pick: Pick| match pick {
+            Pick::Curve(id) => span(around.structure, id).is_some_and(|span| span.closed),
+            Pick::Stretch(..) | Pick::Place(_) => false,
+        };
+        let side = match (hit, self.end.take()) {
+            (Some(Hit::Point { id, .. }), None) => {
+                self.end = Some(*id);
+                return Vec::new();
             }
-            Some(from) if from == curve => say("A sweep needs two different curves."),
-            Some(from) if is_closed(from) != is_closed(curve) => {
-                say("One of these curves is closed and the other is open: nothing can be swept between them.")
-            }
-            Some(from) => {
-                let reversed = self.conclude();
-                vec![Act::Edit(Edit::Sweep { from, to: curve, reversed })]
-            }
+            (Some(Hit::Point { id, .. }), Some(end)) => match stretch(around.document, end, *id) {
+                Some(side) => side,
+                None => return say("No curve runs through both points."),
+            },
+            _ => match curve_hit(hit) {
+                Some(curve) => Pick::Curve(curve),
+                None => return say("There is no curve here."),
+            },
+        };
+        let Some(first) = self.first else {
+            self.first = Some(side);
+            return Vec::new();
+        };
+        if first == side {
+            return say("A sweep needs two different curves.");
         }
+        if is_closed(first) != is_closed(side) {
+            return say(
+                "One of these curves is closed and the other is open: nothing can be swept between them.",
+            );
+        }
+        let [(Some(from), one), (Some(to), other)] = [first, side].map(Pick::side) else { return Vec::new() };
+        let reversed = self.conclude();
+        vec![Act::Edit(Edit::Sweep { from, to, stretches: [one, other], reversed })]
+    }
+
+    pub(super) fn pick_embed(&mut self, aim: Aim<'_>) -> Vec<Act> {
+        let Some(curve) = self.sweep_from() else {
+            let Some(curve) = curve_hit(aim.hit) else {
+                return say("There is no curve here. Click a curve near a surface.");
+            };
+            self.first = Some(Pick::Curve(curve));
+            return Vec::new();
+        };
+        let Some(surface) = aim.surface else { return say("There is no surface here.") };
+        self.conclude();
+        vec![Act::Edit(Edit::Embed { curve, surface })]
     }
 
     pub(super) fn pick_match(&mut self, hit: Option<&Hit>, structure: &Structure) -> Vec<Act> {
@@ -158,9 +205,28 @@ impl Toolbox {
 
     /// The tool begins anew; says whether the act that it has done was to be the other way round.
     fn conclude(&mut self) -> bool {
-        self.first = None;
+        (self.first, self.end) = (None, None);
         std::mem::take(&mut self.options.reversed)
     }
+}
+
+impl Pick {
+    /// The curve, and of which of its stretches this is about.
+    fn side(self) -> (Option<CurveId>, Option<[PointId; 2]>) {
+        match self {
+            Self::Curve(curve) => (Some(curve), None),
+            Self::Stretch(curve, ends) => (Some(curve), Some(ends)),
+            Self::Place(_) => (None, None),
+        }
+    }
+}
+
+/// The stretch between two control points of a curve; of several curves through both the first.
+#[must_use]
+pub fn stretch(document: &Document, from: PointId, to: PointId) -> Option<Pick> {
+    let has_both = |curve: &Curve| curve.through.contains(&from) && curve.through.contains(&to);
+    let curve = document.curves.iter().find(|(_, curve)| has_both(curve)).filter(|_| from != to)?;
+    Some(Pick::Stretch(*curve.0, [from, to]))
 }
 
 fn curve_hit(hit: Option<&Hit>) -> Option<CurveId> {

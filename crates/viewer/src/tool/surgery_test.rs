@@ -188,7 +188,7 @@ fn a_sweep_joins_curves_of_one_kind_and_forgets_its_turn() {
     click(&mut tools, curve(1));
     assert!(refuses(&click(&mut tools, curve(5))), "closed and open");
     tools.options_mut().turn(Toggle::Reversed);
-    let edit = Edit::Sweep { from: CurveId(1), to: CurveId(3), reversed: true };
+    let edit = Edit::Sweep { from: CurveId(1), to: CurveId(3), stretches: [None; 2], reversed: true };
     assert_eq!(click(&mut tools, curve(3)), [Act::Edit(edit)]);
     assert!(!tools.options().reversed, "the next one is not turned round");
     click(&mut tools, curve(1));
@@ -239,6 +239,38 @@ fn trim_wants_two_surfaces() {
     tools.options_mut().turn(Toggle::Smooth);
     let edit = Edit::Trim { first: place(1, 0.0), second: place(2, 3.0), smooth: true, ribbon: None };
     assert_eq!(click(&mut tools, on(2, 3.0)), [Act::Edit(edit)]);
+}
+
+#[test]
+fn a_sweep_takes_stretches_between_control_points() {
+    let mut tools = with(ToolKind::Sweep);
+    let point = |id| Some(Hit::Point { id: PointId(id), at: Vec3::ZERO });
+    assert_eq!(click(&mut tools, point(3)), []);
+    assert!(tools.is_under_way() && tools.stretch_from() == Some(PointId(3)));
+    assert_eq!(click(&mut tools, point(2)), []);
+    assert_eq!(tools.first(), Some(Pick::Stretch(CurveId(1), [PointId(3), PointId(2)])));
+    assert!(refuses(&click(&mut tools, curve(1))), "a closed curve and a stretch");
+    click(&mut tools, point(3));
+    assert!(refuses(&click(&mut tools, point(9))), "no curve runs through both");
+    assert_eq!(tools.stretch_from(), None, "the stretch begins anew");
+    let stretches = [Some([PointId(3), PointId(2)]), None];
+    let edit = Edit::Sweep { from: CurveId(1), to: CurveId(5), stretches, reversed: false };
+    assert_eq!(click(&mut tools, curve(5)), [Act::Edit(edit)]);
+    click(&mut tools, point(3));
+    key(&mut tools, ToolKey::Escape);
+    assert!(!tools.is_under_way());
+}
+
+#[test]
+fn a_curve_is_embedded_in_the_surface_that_is_clicked_next() {
+    let mut tools = with(ToolKind::Embed);
+    assert!(refuses(&click(&mut tools, on(1, 0.0))));
+    assert_eq!(click(&mut tools, curve(3)), []);
+    assert!(refuses(&click(&mut tools, None)));
+    let edit = Edit::Embed { curve: CurveId(3), surface: SurfaceId(2) };
+    assert_eq!(click(&mut tools, on(2, 0.0)), [Act::Edit(edit)]);
+    assert!(!tools.is_under_way());
+    assert_eq!(ToolKind::of_key("i"), Some(ToolKind::Embed));
 }
 
 #[test]

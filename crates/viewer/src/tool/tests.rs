@@ -142,7 +142,10 @@ fn a_sweep_wants_two_different_curves() {
     assert!(click(&mut tools, Aim { hit: Some(&one), ..Aim::default() }).is_empty());
     assert!(matches!(click(&mut tools, Aim { hit: Some(&one), ..Aim::default() })[..], [Act::Say(_)]));
     let acts = click(&mut tools, Aim { hit: Some(&two), ..Aim::default() });
-    assert_eq!(acts, [Act::Edit(Edit::Sweep { from: CurveId(1), to: CurveId(2), reversed: false })]);
+    assert_eq!(
+        acts,
+        [Act::Edit(Edit::Sweep { from: CurveId(1), to: CurveId(2), stretches: [None; 2], reversed: false })]
+    );
     assert_eq!(tools.sweep_from(), None);
 }
 

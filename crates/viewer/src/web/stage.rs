@@ -296,6 +296,7 @@ impl Page {
             ToolKind::Curve | ToolKind::Draw => self.mark_curve(&mut mark),
             ToolKind::Burnout | ToolKind::Crease | ToolKind::Split => self.mark_region(&mut mark),
             ToolKind::Sweep | ToolKind::Match => self.mark_ties(&mut mark),
+            ToolKind::Embed => self.mark_embedding(&mut mark),
             ToolKind::Glue => self.mark_rims(&mut mark),
             ToolKind::Merge | ToolKind::Trim => self.mark_places(&mut mark),
             ToolKind::Displace => self.mark_displacements(&mut mark),

@@ -2,13 +2,16 @@
 
 use super::page::Page;
 use crate::input::Modifiers;
-use crate::tool::{Aim, Place, Selection, Surroundings, ToolKind, ties, tube};
+use crate::tool::{Aim, Pick, Place, Selection, Surroundings, ToolKind, stretch, ties, tube};
 use crate::{Highlight, Hit, RimHit, Tinted, Wanted, closest_places, pick_among};
-use ductile_spec::{CurveId, SurfaceId};
+use ductile_spec::SurfaceId;
 use glam::{Vec2, Vec3};
 
 /// How much nearer to a rim than to a curve the pointer need not come: rims lie along curves and are met with their surface.
 const RIM_REACH: f32 = 1.6;
+
+/// Lines from a curve to the surface that it would be embedded in, at most.
+const DROPS: usize = 32;
 
 impl Page {
     /// The surface under the pointer, or, beside its edge, the one nearest to the thing that was hit.
@@ -111,17 +114,70 @@ impl Page {
         }
     }
 
-    /// The first curve is marked; over a second one, how the two would be tied.
-    pub(crate) fn mark_ties(&self, mark: &mut Highlight) {
-        let Some(from) = self.tools.sweep_from() else { return };
-        mark.selected_curve = Some(from);
-        let Some(Hit::Curve { id: to, .. }) = mark.hover else { return };
-        let closed = |id: CurveId| self.scene.curve(id).is_some_and(|curve| curve.closed);
-        if self.tools.kind() != ToolKind::Sweep || from == to || closed(from) != closed(to) {
-            return;
+    /// The line of a curve, or of a stretch of it, and whether it closes.
+    fn line_of(&self, pick: Pick) -> Option<(Vec<Vec3>, bool)> {
+        let (id, ends) = match pick {
+            Pick::Curve(id) => (id, None),
+            Pick::Stretch(id, ends) => (id, Some(ends)),
+            Pick::Place(_) => return None,
+        };
+        let closed = self.scene.curve(id)?.closed;
+        let line: Vec<Vec3> = self.scene.samples(id).collect();
+        match ends {
+            None => Some((line, closed)),
+            Some([from, to]) => {
+                let [from, to] = [self.scene.point(from)?, self.scene.point(to)?];
+                Some((between(&line, closed, from, to), false))
+            }
         }
-        let [one, other]: [Vec<Vec3>; 2] = [from, to].map(|id| self.scene.samples(id).collect());
-        mark.sketch = lines(ties(&one, &other, closed(from), self.tools.options().reversed));
+    }
+
+    /// What a click of the sweep would take: a curve, or the stretch to the point under the pointer.
+    fn swept_at(&self, hover: Option<Hit>) -> Option<Pick> {
+        match (hover, self.tools.stretch_from()) {
+            (Some(Hit::Curve { id, .. }), _) => Some(Pick::Curve(id)),
+            (Some(Hit::Point { id, .. }), Some(from)) => stretch(&self.document, from, id),
+            _ => None,
+        }
+    }
+
+    /// The first curve or stretch is marked; over a second one, how the two would be tied.
+    pub(crate) fn mark_ties(&self, mark: &mut Highlight) {
+        mark.ghost.extend(self.tools.stretch_from().and_then(|end| self.scene.point(end)));
+        let over = if self.tools.kind() == ToolKind::Sweep { self.swept_at(mark.hover) } else { None };
+        let first = self.tools.first();
+        let [one, other] = [first, over].map(|pick| pick.and_then(|pick| self.line_of(pick)));
+        match first {
+            Some(Pick::Curve(id)) => mark.selected_curve = Some(id),
+            Some(Pick::Stretch(..)) => mark.sketch.extend(one.iter().map(|(line, _)| line.clone())),
+            Some(Pick::Place(_)) | None => {}
+        }
+        if let (Some(Pick::Stretch(..)), Some((line, _))) = (over, &other) {
+            mark.sketch.push(line.clone());
+        }
+        if let (Some((one, closed)), Some((other, too))) = (one, other)
+            && first != over
+            && closed == too
+        {
+            mark.sketch.extend(lines(ties(&one, &other, closed, self.tools.options().reversed)));
+        }
+    }
+
+    /// The curve is marked that would be embedded, the surface under the pointer, and how it would come to the curve.
+    pub(crate) fn mark_embedding(&self, mark: &mut Highlight) {
+        mark.tinted.clear();
+        let Some(curve) = self.tools.sweep_from() else {
+            mark.hover = mark.hover.filter(|hit| matches!(hit, Hit::Curve { .. }));
+            return;
+        };
+        mark.selected_curve = Some(curve);
+        let over = self.hand.cursor.and_then(|cursor| self.surface_at(cursor, mark.hover.as_ref()));
+        let Some(surface) = over.filter(|_| mark.hover.take().is_some()) else { return };
+        mark.tinted.push(Tinted::Surface(surface));
+        let line: Vec<Vec3> = self.scene.samples(curve).collect();
+        let step = line.len().div_ceil(DROPS).max(1);
+        let drop = |at: &Vec3| Some(vec![*at, self.scene.hit_near(surface, *at)?.at()]);
+        mark.sketch = line.iter().step_by(step).filter_map(drop).collect();
     }
 
     /// The rims that would be joined, and how.
@@ -179,6 +235,18 @@ impl Page {
             }
         }
     }
+}
+
+/// The part of a polyline from the sample nearest to one place to that nearest to another: on a closed one in its sense.
+fn between(line: &[Vec3], closed: bool, from: Vec3, to: Vec3) -> Vec<Vec3> {
+    let nearest = |at: Vec3| {
+        let distance = |k: &usize| line[*k].distance_squared(at);
+        (0..line.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0)
+    };
+    let (first, last, count) = (nearest(from), nearest(to), line.len());
+    let (first, last) = if closed { (first, last) } else { (first.min(last), first.max(last)) };
+    let steps = if last >= first { last - first } else { last + count - first };
+    (0..=steps).filter_map(|step| line.get((first + step) % count.max(1)).copied()).collect()
 }
 
 fn lines(ties: Vec<[Vec3; 2]>) -> Vec<Vec<Vec3>> {

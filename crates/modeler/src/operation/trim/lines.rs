@@ -1,6 +1,6 @@
 //! The lines in which two surfaces meet, and fair curves in their place.
 
-use crate::error::ModelError;
+use crate::error::{ModelError, TrimError};
 use crate::model::Model;
 use crate::operation::refresh_skeleton;
 use crate::operation::s_loop::draw;
@@ -38,7 +38,7 @@ pub(crate) fn meeting(
     other: SurfaceId,
 ) -> Result<Vec<MeetingLine>, ModelError> {
     if one == other {
-        return Err(ModelError::TrimsItself(one));
+        return Err(TrimError::TrimsItself(one).into());
     }
     let told = |line: CommonLine| MeetingLine {
         along: line.points.iter().map(|point| point.position).collect(),
@@ -51,11 +51,8 @@ pub(crate) fn meeting(
 fn common(model: &Model, one: SurfaceId, other: SurfaceId) -> Result<Vec<CommonLine>, ModelError> {
     let [a, b] = [one, other].map(|id| model.surfaces.get(&id).ok_or(ModelError::NoSurface(id)));
     let (a, b) = (a?, b?);
-    intersections((&a.mesh, &a.positions), (&b.mesh, &b.positions)).map_err(|why| ModelError::Untold {
-        one,
-        other,
-        why,
-    })
+    intersections((&a.mesh, &a.positions), (&b.mesh, &b.positions))
+        .map_err(|why| TrimError::Untold { one, other, why }.into())
 }
 
 /// Lays fair curves into both surfaces, in the place of all lines that may divide one of them: those that close, and those
@@ -67,7 +64,7 @@ pub(super) fn snapshots(
 ) -> Result<Vec<Snapshot>, ModelError> {
     let lines = common(model, one, other)?;
     if lines.is_empty() {
-        return Err(ModelError::NoMeeting(one, other));
+        return Err(TrimError::NoMeeting(one, other).into());
     }
     let (mut sound, mut loose) = (Vec::new(), None);
     for line in lines {
@@ -78,7 +75,7 @@ pub(super) fn snapshots(
         }
     }
     if let (true, Some(at)) = (sound.is_empty(), loose) {
-        return Err(ModelError::OpenMeeting { one, other, at });
+        return Err(TrimError::OpenMeeting { one, other, at }.into());
     }
     let mut curves = Vec::new();
     for (points, closed, host) in sound {

@@ -343,7 +343,10 @@ fn a_fair_surface_goes_on_from_a_baked_cage_as_it_did_from_the_cage() {
     edit(&mut modeler, Edit::Curve { through, closed: true });
     let out = rim.iter().step_by(2).map(|at| Through::Place(*at * 1.8 + DVec3::Z)).collect();
     edit(&mut modeler, Edit::Curve { through: out, closed: true });
-    edit(&mut modeler, Edit::Sweep { from: CurveId(1), to: CurveId(2), reversed: false });
+    edit(
+        &mut modeler,
+        Edit::Sweep { from: CurveId(1), to: CurveId(2), stretches: [None; 2], reversed: false },
+    );
     rest(&mut modeler);
     let (surface, curve) = (SurfaceId(2), CurveId(1));
     edit(&mut modeler, Edit::Ribbon { surface, curve, leave: Some(Leave::Onto(ONE)) });
