@@ -82,7 +82,7 @@ impl Figures {
     /// Order of the deviation in the mean spacing, from the coarsest to the finest mesh.
     fn order(&self, of: impl Fn(&Deviation) -> f64) -> f64 {
         let [(few, coarse), _, (many, fine)] = &self.meshes;
-        2.0 * (of(coarse) / of(fine)).ln() / (*many as f64 / *few as f64).ln()
+        2.0 * libm::log(of(coarse) / of(fine)) / libm::log(*many as f64 / *few as f64)
     }
 }
 
