@@ -131,15 +131,23 @@ fn crowds_are_thinned_but_pins_stay() {
     let is_pinned = |v: VertexId| v.index() < 12;
     let limits = Limits { is_pinned: &is_pinned, ..Limits::default() };
     mesh.set_vertex_source(VertexId::from_index(40), Some(SourceTag(0)));
+    let stays = |v: VertexId| v.index() < 12 || v.index() == 40;
     for _ in 0..10 {
         improve(&mut mesh, &mut positions, &mut Sizing::Uniform(0.4), &limits, &mut midpoint);
         assert_eq!(validate(&mesh), Ok(()));
+        // Passes over the connectivity move nothing: that is for whoever smooths, and without it what lies in the way of a
+        // collapse stays there with any angle. Here it is Laplace's smoothing on the sphere.
+        for v in mesh.vertices().filter(|&v| !stays(v)).collect::<Vec<_>>() {
+            let sum: DVec3 = mesh.neighbours(v).map(|w| positions[w.index()]).sum();
+            positions[v.index()] = sum.normalize_or_zero();
+        }
     }
     assert_eq!(summary(&mesh).kind(), kind);
     assert!(mesh.vertex_count() < 642 / 2, "{}", mesh.vertex_count());
     assert!((0..12).chain([40]).all(|i| mesh.has_vertex(VertexId::from_index(i))));
     let q = quality(&mesh, &positions);
-    assert!(q.least_angle > 0.17 && q.inner_valences[3] + q.inner_valences[4] == 0, "{q:?}");
+    // Goal g of the engine: no triangle under 30°, here not even around what stays.
+    assert!(q.least_angle > 30_f64.to_radians() && q.inner_valences[3] + q.inner_valences[4] == 0, "{q:?}");
     for f in mesh.faces() {
         let p = positions[mesh.face_vertices(f)[0].index()];
         assert!(measure::face_normal(&mesh, &positions, f).dot(p) > 0.0, "nothing folds over");
