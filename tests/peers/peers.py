@@ -1,7 +1,11 @@
 """Peers on the meshes that the command line writes: one linear fair solve, one remeshing, and what their triangles are like.
 
     python -m venv target/peers && target/peers/bin/pip install -r tests/peers/requirements.txt
+    (cd tests/peers/npm && npm ci)
     target/peers/bin/python tests/peers/peers.py [--ductile PATH]
+
+The peers in Rust and our own code beside them are a program of their own (`rust`, built by cargo when it is needed), the one
+from npm is called by `npm/manifold.mjs`. `--only rust` leaves the others out and needs no virtual environment.
 
 Each peer runs in a process of its own with a time limit, so that one that crashes or hangs is a line in the table and nothing
 more. The linear solve is biharmonic, with the boundary and one inner node held; ours is the non-linear one, to rest and with the
@@ -19,7 +23,10 @@ import sys
 import tempfile
 import time
 
-import numpy as np
+try:
+    import numpy as np
+except ImportError:  # the peers in Rust and from npm need none
+    np = None
 
 HERE = pathlib.Path(__file__).resolve().parent
 TOP = HERE.parent.parent
@@ -225,13 +232,49 @@ def ductile(program, spec, out):
     return json.loads(done.stdout)
 
 
+SPACINGS = [0.072, 0.024, 0.0172]  # of about 1,000, 10,000 and 15,000 nodes; while it grows, a model may have 20,000
+MOVED = 0.37  # how far the torus is moved to meet itself
+
+
+def beside(program, folder):
+    """The peers in Rust and from npm, and ours beside them; each prints lines of a table."""
+    target = TOP / "target" / "peers-rust"
+    build = ["cargo", "build", "--quiet", "--release", "--locked", "--target-dir", str(target)]
+    subprocess.run(build, check=True, cwd=HERE / "rust")
+    peers = target / "release" / "ductile-peers"
+    ring = pathlib.Path(folder, "uneven.obj")
+    print("\nFactoring and solving the plate of the raised disc, and our steps on it:\n\n| mesh | what | time |\n| --- | --- | --- |")
+    for spacing in SPACINGS:
+        spec, disc = pathlib.Path(folder, "disc.ductile.json"), pathlib.Path(folder, "disc.obj")
+        spec.write_text(json.dumps(json.loads((HERE / "disc.ductile.json").read_text()) | {"spacing": spacing}))
+        ductile(program, spec, disc)
+        sys.stdout.flush()
+        subprocess.run([peers, "plate", disc], check=True)
+    print("\nThe uneven torus of 400 x 25:\n\n| what | time | result |\n| --- | --- | --- |", flush=True)
+    subprocess.run([peers, "remesh"], check=True)
+    subprocess.run([peers, "torus", ring], check=True)
+    subprocess.run([peers, "meet", ring, str(MOVED)], check=True)
+    done = subprocess.run(["node", "manifold.mjs", str(ring), str(MOVED)], cwd=HERE / "npm")
+    if done.returncode != 0:
+        print("| manifold-3d | did not run | |")
+
+
 def main():
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("--ductile", help="the program, if it is built already")
     arguments.add_argument("--one", nargs=3, help=argparse.SUPPRESS)
+    arguments.add_argument("--only", choices=["python", "rust"], help="leave the other peers out")
     options = arguments.parse_args()
     if options.one:
         return one(*options.one)
+    if options.only != "python":
+        print(f"load at the start: {os.getloadavg()[0]:.1f}")
+        with tempfile.TemporaryDirectory() as folder:
+            beside(options.ductile, folder)
+    if options.only == "rust":
+        return
+    if np is None:
+        sys.exit("the peers from Python need the virtual environment")
     with tempfile.TemporaryDirectory() as folder:
         disc, ring = pathlib.Path(folder, "disc.obj"), pathlib.Path(folder, "torus.obj")
         report = ductile(options.ductile, HERE / "disc.ductile.json", disc)
