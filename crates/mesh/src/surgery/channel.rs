@@ -1,7 +1,8 @@
 //! The channel: the triangles that a curve between two vertices would run through, and the edges across it.
 //!
 //! Source: Welch 1995, §4.2.3 (edge insertion). The channel has no vertex inside; positions only guide the search, which takes
-//! the shortest way over places on the edges that a [`Line`] names. Where curves may not be crossed it goes round them.
+//! the shortest way over places on the edges that a [`Line`] names; what lies aside of the line counts as a way, too.
+//! Where curves may not be crossed it goes round them.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -81,6 +82,12 @@ impl Line {
         if share.is_finite() { share } else { 0.5 }
     }
 
+    /// How far a place is off the plane that the line follows; zero where it is on its own.
+    fn aside(&self, at: DVec3) -> f64 {
+        let off = self.across.dot(at - self.from) / self.across.length();
+        if off.is_finite() { off.abs() } else { 0.0 }
+    }
+
     /// [`Line::share`] within the margins.
     pub(super) fn crossing(&self, a: DVec3, b: DVec3) -> f64 {
         self.share(a, b).clamp(MARGIN, 1.0 - MARGIN)
@@ -123,7 +130,8 @@ pub(super) fn channel(
     let mut enter =
         |side: HalfedgeId, after: Option<HalfedgeId>, at: DVec3, before: f64, ahead: &mut BinaryHeap<_>| {
             let here = gate(mesh.edge_of(side));
-            let mut length = before + at.distance(here);
+            // A gate that the plane does not cross would be a short cut on the wrong side of a vertex.
+            let mut length = before + at.distance(here) + line.aside(here);
             if mesh.apex(side) == to {
                 length += here.distance(place(to));
             }

@@ -215,7 +215,7 @@ impl Layer {
         (end, to): (usize, VertexId),
     ) -> Result<(), PathError> {
         let sites = &self.sites;
-        let line = Line::upright(sites.at(from), sites.at(to), [from, to].map(|v| sites.normal(v)));
+        let line = Line::upright(sites.at(from), sites.at(to), [from, to].map(|v| sites.normal(old, v)));
         let across = channel(&sites.mesh, &sites.positions, from, to, line, Crossing::Curves)
             .ok_or(PathError::Apart(start, end))?;
         for step in self.steps(&across, line) {

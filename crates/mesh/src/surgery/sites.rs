@@ -36,14 +36,43 @@ impl Sites {
         self.positions.get(v.index()).copied().unwrap_or(DVec3::ZERO)
     }
 
-    /// The direction in which the surface faces at a vertex, in the sense of its ring.
-    pub(super) fn normal(&self, v: VertexId) -> DVec3 {
+    /// The direction in which the surface faces at a vertex, in one of its two senses: that of the old mesh, between whose
+    /// corners a new vertex takes the mean. Its own faces all lie in one plane, which leans over as far as the facet does.
+    pub(super) fn normal(&self, old: &Mesh, v: VertexId) -> DVec3 {
+        match self.born.get(&v) {
+            Some(Some(Place::Face { face, weights })) => self.normal_in(old, *face, *weights),
+            Some(Some(Place::Edge { edge, at })) => {
+                let (face, _) = old.edge_faces(*edge);
+                let [a, b] = old.edge_vertices(*edge);
+                let weight = |v: VertexId| if v == a { 1.0 - at } else { *at };
+                let weights = old.face_vertices(face).map(|v| if v == a || v == b { weight(v) } else { 0.0 });
+                self.normal_in(old, face, weights)
+            }
+            Some(None) => self.normal_at(&self.mesh, v),
+            None | Some(Some(Place::Vertex(_))) => self.normal_at(old, v),
+        }
+    }
+
+    /// The weighted mean of the normals at the corners of an old face, in the sense of the face.
+    fn normal_in(&self, old: &Mesh, face: FaceId, weights: [f64; 3]) -> DVec3 {
+        let corners = old.face_vertices(face);
+        let upright = |k: usize| {
+            let agrees =
+                old.wedges(corners[k]).find(|wedge| wedge.face() == face).is_none_or(|wedge| wedge.agrees);
+            let normal = self.normal_at(old, corners[k]) * weights[k];
+            if agrees { normal } else { -normal }
+        };
+        (upright(0) + upright(1) + upright(2)).try_normalize().unwrap_or(DVec3::ZERO)
+    }
+
+    /// The normal at a vertex in the sense of its ring, zero where there is none.
+    fn normal_at(&self, mesh: &Mesh, v: VertexId) -> DVec3 {
         let upright = |wedge: Wedge| {
-            let [a, b, c] = self.mesh.face_vertices(wedge.face()).map(|v| self.at(v));
+            let [a, b, c] = mesh.face_vertices(wedge.face()).map(|v| self.at(v));
             let normal = (b - a).cross(c - a);
             if wedge.agrees { normal } else { -normal }
         };
-        self.mesh.wedges(v).map(upright).sum::<DVec3>().try_normalize().unwrap_or(DVec3::ZERO)
+        mesh.wedges(v).map(upright).sum::<DVec3>().try_normalize().unwrap_or(DVec3::ZERO)
     }
 
     /// The new vertices with their positions, in order of their names.
