@@ -22,6 +22,7 @@ mod merge;
 mod mesh;
 mod normal;
 mod objective;
+mod outward;
 mod pin;
 mod point;
 mod propagate;
@@ -82,7 +83,9 @@ pub(crate) fn apply(
         return outcome;
     }
     let before = (!model.document.fills.is_empty()).then(|| model.clone());
+    let were_closed = outward::closed(model);
     act(model, relaxer, edit)?;
+    outward::turn(model, &were_closed)?;
     shadow::forget_lost(model);
     if model.document.surfaces.values().flat_map(|surface| &surface.regions).any(|r| r.shadow.is_some()) {
         model.document.validate()?;
