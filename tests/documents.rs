@@ -256,6 +256,19 @@ fn surfaces_with_one_side_are_welcome() {
     assert!(!summary.is_orientable && summary.euler == 0, "{summary:?}");
 }
 
+/// What a million wild drags came upon: a rim drawn out so far that the cuts along it gave one node more neighbours than can be fitted.
+#[test]
+fn a_rim_drawn_far_out_opens_and_comes_to_rest() {
+    let text = r#"{"ductile":1,"objective":"thin-plate","spacing":0.25,"points":{"1":[0.7071,0.7071,0.0],
+        "2":[1.811718,0.790307,0.328654],"3":[-0.7071,-0.7071,0.0],"4":[0.7071,-0.7071,0.0],"5":[0.0,0.45,0.5],
+        "6":[-0.39,-0.22,0.35],"7":[0.39,-0.22,0.35]},"curves":{"1":{"through":[1,2,3,4],"closed":true}},
+        "surfaces":{"1":{"skeleton":{"vertices":[1,2,3,4,5,6,7],"triangles":[[0,1,4],[1,5,4],[1,2,5],[2,6,5],[2,3,6],
+        [3,0,6],[0,4,6],[4,5,6]],"curves":[{"curve":1,"along":[0,1,2,3]}]}}}}"#;
+    let mut bench = Bench::new();
+    bench.accept(Request::OpenText { text: text.to_owned() });
+    bench.rest(600);
+}
+
 /// A history may hold a document that can be read and yet not be built: undo says so, and the entry is not lost.
 #[test]
 fn an_undo_that_cannot_be_built_is_refused_and_stays_in_the_history() {

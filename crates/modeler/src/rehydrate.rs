@@ -8,7 +8,7 @@ use crate::error::ModelError;
 use crate::maintain::{self, FEWEST_EDGES};
 use crate::model::{Model, NODE_BUDGET};
 use crate::shape::{CurveShape, EmbeddedCurve, Pin, SurfaceShape};
-use ductile_mesh::{Mesh, SourceTag, VertexId, measure, propagate_orientation};
+use ductile_mesh::{Mesh, SourceTag, VertexId, measure, propagate_orientation, remesh};
 use ductile_spec::{CurveId, Document, Embedding, PointId, Skeleton, SkeletonVertex, Surface, SurfaceId};
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -184,6 +184,10 @@ pub(crate) fn build_surface(
         });
     }
     check_area(id, measure::total_area(&mesh, &positions), &positions, spacing)?;
+    for embedding in &skeleton.curves {
+        mark_path(&mut mesh, skeleton, embedding);
+    }
+    remesh::tighten(&mut mesh, &positions);
     let (embeddings, pins, wanted) = (Vec::new(), Vec::new(), Vec::new());
     let bare = SurfaceShape { mesh, positions, embeddings, pins, spacing, wanted, age: 0, revision };
     let graded = is_graded.then_some(surface);
@@ -288,8 +292,19 @@ fn embedded(path: &Path, curves: &BTreeMap<CurveId, Arc<CurveShape>>) -> Embedde
     EmbeddedCurve { curve: path.curve, vertices }
 }
 
-/// Marks the skeleton's edges on a curve and gives each of their ends a sample. A closed path ends with its
-/// first vertex again, one turn later.
+/// Marks the skeleton's edges on a curve.
+fn mark_path(mesh: &mut Mesh, skeleton: &Skeleton, embedding: &Embedding) {
+    let vertex = |v: u32| VertexId::from_index(v as usize);
+    for chain in chains(skeleton, &embedding.along) {
+        for pair in chain.windows(2) {
+            if let Some(edge) = mesh.edge_between(vertex(pair[0]), vertex(pair[1])) {
+                mesh.set_edge_source(edge, Some(SourceTag(embedding.curve.0)));
+            }
+        }
+    }
+}
+
+/// Gives each vertex of the skeleton on a curve a sample. A closed path ends with its first vertex again, one turn later.
 fn lay_path(
     shape: &mut SurfaceShape,
     skeleton: &Skeleton,
@@ -302,9 +317,6 @@ fn lay_path(
     for (chain, (first, count)) in chains(skeleton, &embedding.along).iter().zip(curve.stretches()) {
         let vertex = |j: usize| VertexId::from_index(chain[j] as usize);
         for j in 0..chain.len() - 1 {
-            if let Some(edge) = shape.mesh.edge_between(vertex(j), vertex(j + 1)) {
-                shape.mesh.set_edge_source(edge, Some(SourceTag(embedding.curve.0)));
-            }
             // Path vertex j of the chain takes the sample at its share of the stretch.
             let sample = first + j * count / (chain.len() - 1);
             if laying == Laying::OnCurves {

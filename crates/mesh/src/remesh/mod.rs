@@ -32,6 +32,7 @@ mod potential;
 mod repair_valence;
 mod sizing;
 mod split_long;
+mod tighten;
 
 pub use collapse_short::collapse_short;
 pub use flip_pass::flip_pass;
@@ -39,6 +40,7 @@ pub use ledger::{Ledger, Seeds};
 pub use repair_valence::repair_valence;
 pub use sizing::Sizing;
 pub use split_long::split_long;
+pub use tighten::tighten;
 
 use glam::DVec3;
 

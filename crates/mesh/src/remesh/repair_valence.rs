@@ -1,4 +1,4 @@
-//! Mending inner vertices with three or four neighbours, which fit no quadratic well.
+//! Mending inner vertices with three or four neighbours, which fit no quadratic well, and all with more than can be fitted at all.
 
 use glam::DVec3;
 
@@ -16,8 +16,12 @@ const ENOUGH: usize = 5;
 /// neighbours (three on the boundary); failing that, the vertex is collapsed into its nearest neighbour,
 /// unless it is pinned or on a curve, or the other passes would only bring it back.
 ///
-/// This ends: every collapse leaves fewer vertices, and between collapses every flip leaves fewer missing
-/// neighbours, for no flip makes a vertex that lacks some.
+/// A vertex with more neighbours than `limits.most_neighbours` gives some away, first those whose edge flips into the widest
+/// corners, be they ever so sharp or bent: no pass makes such a vertex, but the cuts along a curve may, and where
+/// the surface is folded nothing else takes them from it.
+///
+/// This ends: every collapse leaves fewer vertices, and between collapses every flip leaves fewer surplus neighbours, or as many and fewer
+/// missing ones.
 pub fn repair_valence(
     mesh: &mut Mesh,
     positions: &[DVec3],
@@ -27,11 +31,23 @@ pub fn repair_valence(
 ) -> Edits {
     let mut edits = Edits::default();
     let mut stack = seeds.vertices(mesh);
-    stack.retain(|&v| is_poor(mesh, v));
+    stack.retain(|&v| is_poor(mesh, v) || is_crowded(mesh, v, limits));
     stack.reverse();
     let mut ring = Vec::new();
     while let Some(v) = stack.pop() {
-        if !mesh.has_vertex(v) || !is_poor(mesh, v) {
+        if !mesh.has_vertex(v) {
+            continue;
+        }
+        if is_crowded(mesh, v, limits) {
+            if let Some((e, diagonal)) = relief(mesh, positions, v, limits) {
+                mesh.flip(e);
+                edits.flips += 1;
+                edits.touched.extend(diagonal.ends.into_iter().chain(diagonal.opposite));
+                stack.push(v);
+            }
+            continue;
+        }
+        if !is_poor(mesh, v) {
             continue;
         }
         if let Some((e, diagonal)) = best_flip(mesh, positions, sizing, v, limits) {
@@ -58,6 +74,27 @@ pub fn repair_valence(
 fn is_poor(mesh: &Mesh, v: VertexId) -> bool {
     let (valence, is_closed) = mesh.degree(v);
     is_closed && valence < ENOUGH
+}
+
+fn is_crowded(mesh: &Mesh, v: VertexId, limits: &Limits<'_>) -> bool {
+    mesh.valence(v) > limits.most_neighbours
+}
+
+/// The edge at `v` whose flip away from it makes the widest corners, if one may be flipped; one whose ends keep enough
+/// neighbours goes first.
+fn relief(mesh: &Mesh, positions: &[DVec3], v: VertexId, limits: &Limits<'_>) -> Option<(EdgeId, Diagonal)> {
+    let mut best: Option<((bool, f64), EdgeId, Diagonal)> = None;
+    for e in mesh.spokes(v).filter(|&e| mesh.can_flip(e).is_ok()) {
+        let Some(diagonal) = Diagonal::of(mesh, e) else { continue };
+        let can_spare = |&w: &VertexId| mesh.valence(w) > if mesh.is_boundary_vertex(w) { 3 } else { ENOUGH };
+        let merit = (diagonal.ends.iter().all(can_spare), diagonal.corner_flipped(positions));
+        if best.is_none_or(|(other, ..)| merit > other)
+            && diagonal.opposite.iter().all(|&w| mesh.valence(w) < limits.most_neighbours)
+        {
+            best = Some((merit, e, diagonal));
+        }
+    }
+    best.map(|(_, e, diagonal)| (e, diagonal))
 }
 
 /// The edge across from `v` whose flip towards `v` makes the widest corners, if one may be flipped. An edge

@@ -274,6 +274,40 @@ fn poor_vertices_are_mended() {
     assert!(q.least_angle > 15_f64.to_radians());
 }
 
+/// A hub with spokes to 60 samples of a curve, with and without a surface beyond them, flat and crumpled.
+#[test]
+fn a_crowded_vertex_gives_neighbours_away() {
+    let around = 60_u32;
+    let ring = |radius: f64| {
+        (0..around).map(move |k| {
+            let t = core::f64::consts::TAU * f64::from(k) / f64::from(around);
+            DVec3::new(libm::cos(t), libm::sin(t), 0.0) * radius
+        })
+    };
+    let next = |k: u32| (k + 1) % around;
+    let inner = (0..around).map(|k| [0, 1 + k, 1 + next(k)]);
+    let beyond = (0..around).flat_map(|k| {
+        let (low, high) = ([1 + k, 1 + next(k)], [1 + around + k, 1 + around + next(k)]);
+        [[low[0], high[0], low[1]], [low[1], high[0], high[1]]]
+    });
+    let fan: Vec<_> = inner.collect();
+    let whole: Vec<_> = fan.iter().copied().chain(beyond).collect();
+    for (triangles, size) in [(&fan, 0.0), (&fan, 0.5), (&whole, 0.0), (&whole, 0.5)] {
+        let mut positions: Vec<DVec3> =
+            core::iter::once(DVec3::ZERO).chain(ring(1.0)).chain(ring(1.2)).collect();
+        positions.truncate(if triangles.len() > 60 { 121 } else { 61 });
+        jitter(&mut positions, size, 5);
+        let mut mesh = Mesh::from_triangles(positions.len(), triangles).unwrap();
+        let before = summary(&mesh).kind();
+        let limits = Limits { may_collapse: false, ..Limits::default() };
+        repair_valence(&mut mesh, &positions, &FREE, Seeds::All, &limits);
+        assert_eq!(validate(&mesh), Ok(()));
+        assert_eq!(summary(&mesh).kind(), before);
+        let most = mesh.vertices().map(|v| mesh.valence(v)).max();
+        assert!(most <= Some(24), "{most:?} neighbours are left");
+    }
+}
+
 #[test]
 fn batches_come_to_rest_on_a_moving_shape() {
     let (mut mesh, mut positions) = primitive::icosphere(3);
