@@ -81,7 +81,8 @@ fn every_built_example_is_the_kind_of_surface_that_it_is_called() {
         let bench = Bench::with(known.example);
         let surfaces = &bench.modeler.model().surfaces;
         assert_eq!(surfaces.len(), 1, "{:?}", known.example);
-        let found = summary(&surfaces.values().next().unwrap().mesh);
+        let shape = surfaces.values().next().unwrap();
+        let found = summary(&shape.mesh);
         assert_eq!(found.components, 1, "{:?}", known.example);
         assert_eq!(
             (found.euler, found.boundaries, found.is_orientable),
@@ -89,6 +90,12 @@ fn every_built_example_is_the_kind_of_surface_that_it_is_called() {
             "{:?}",
             known.example
         );
+        if found.boundaries == 0 && found.is_orientable {
+            let corners =
+                shape.mesh.faces().map(|f| shape.mesh.face_vertices(f).map(|v| shape.positions[v.index()]));
+            let volume: f64 = corners.map(|[a, b, c]| a.dot(b.cross(c)) / 6.0).sum();
+            assert!(volume > 0.0, "{:?} shows its inside", known.example);
+        }
     }
 }
 

@@ -3,7 +3,6 @@
 
 use crate::error::ModelError;
 use crate::model::Model;
-use crate::operation::refresh_skeleton;
 use crate::shape::edit;
 use ductile_spec::{CurveId, Side, SurfaceId};
 
@@ -24,6 +23,8 @@ pub(super) fn reverse(model: &mut Model, id: SurfaceId) -> Result<(), ModelError
         .map(|e| e.curve)
         .collect();
     if let Some(surface) = model.document_mut().surfaces.get_mut(&id) {
+        // The skeleton is the same one, turned: dehydrating the turned mesh would give another.
+        surface.skeleton.triangles.iter_mut().for_each(|corners| corners.swap(0, 1));
         for region in &mut surface.regions {
             region.side = if region.side == Side::Left { Side::Right } else { Side::Left };
         }
@@ -31,6 +32,5 @@ pub(super) fn reverse(model: &mut Model, id: SurfaceId) -> Result<(), ModelError
             ribbon.cross.values_mut().for_each(|cross| *cross = -*cross);
         }
     }
-    refresh_skeleton(model, id);
     Ok(model.document.validate()?)
 }
