@@ -6,7 +6,7 @@
 use acceptance::Bench;
 use ductile_mesh::summary;
 use ductile_modeler::Model;
-use ductile_spec::{Border, CurveId, Edit, Extent, On, PointId, Request, SurfaceId, from_text};
+use ductile_spec::{Border, CurveId, Edit, Extent, GrabTarget, On, PointId, Request, SurfaceId, from_text};
 use glam::{DVec3, dvec3};
 
 /// A disc with a closed curve inside, which is raised.
@@ -836,4 +836,50 @@ fn curves_that_end_at_a_cut_end_on_their_own_bank() {
     let kinds = act(&mut bench, Edit::Split { border: Border::Curve(CurveId(2)) });
     assert_eq!(kinds, [(1, 0, 2, true), (2, 1, 1, true)]);
     bench.rest(600);
+}
+
+/// What rested when it was left rests at once when it is brought back, as it was to the bit, however long was looked at in between.
+#[test]
+fn redo_brings_back_the_shape_that_rested_and_its_energy_to_the_bit() {
+    let mut bench = Bench::new();
+    bench.accept(Request::OpenText { text: HAT.to_owned() });
+    bench.rest(600);
+    let mut rested = vec![bench.rest(1)];
+    for edit in [
+        Edit::Crease { border: Border::Curve(CurveId(2)) },
+        Edit::Smooth { curve: CurveId(2) },
+        Edit::Burnout { region: On { surface: SurfaceId(1), at: dvec3(0.0, 0.0, 0.3) } },
+    ] {
+        bench.edit(edit);
+        rested.push(bench.rest(600));
+    }
+    let places = |bench: &Bench| {
+        let shapes = bench.modeler.model().surfaces.values();
+        shapes.flat_map(|shape| shape.positions.clone()).collect::<Vec<_>>()
+    };
+    let (document, last) = (bench.document.clone(), places(&bench));
+    for (back, energy) in rested.iter().rev().skip(1).enumerate() {
+        let reply = bench.accept(Request::Undo);
+        assert!(reply.frame.settled, "nothing is left to do {back} acts before the last");
+        assert_eq!(reply.frame.figures.energy.to_bits(), energy.to_bits());
+        for _ in 0..back * 3 {
+            bench.step(None);
+        }
+    }
+    for energy in &rested[1..] {
+        let reply = bench.accept(Request::Redo);
+        assert!(reply.frame.settled);
+        assert_eq!(reply.frame.figures.energy.to_bits(), energy.to_bits());
+    }
+    assert_eq!((bench.document.clone(), places(&bench)), (document, last));
+    // A drag that is put back leaves no trace either.
+    let point = PointId(1);
+    let at = bench.document().points[&point];
+    bench.accept(Request::Grab(GrabTarget::Point(point)));
+    for step in 1..=5 {
+        bench.step(Some(at + DVec3::Z * 0.1 * f64::from(step)));
+    }
+    let reply = bench.accept(Request::Cancel);
+    assert!(reply.frame.settled);
+    assert_eq!(reply.frame.figures.energy.to_bits(), rested[3].to_bits());
 }

@@ -83,21 +83,22 @@ test("a rim is picked, its strip is shown, and a handle turns it under the point
     const [was, is] = [told, turned].map(ribbonOf);
     const changed = Object.keys(was).filter((id) => distance(was[id], is[id]) > 1e-9);
     assert.deepEqual(changed, [String(index + 1)], "the others stay as they were");
-    assert.ok(distance(was[index + 1], is[index + 1]) > 0.3, `${was[index + 1]} and ${is[index + 1]}`);
+    assert.ok(distance(was[index + 1], is[index + 1]) > 0.15, `${was[index + 1]} and ${is[index + 1]}`);
     assert.ok(Math.abs(turned.figures.energy - told.figures.energy) > 1e-3, "the surface is another");
     await pointAway(page);
     await picture(page, "ribbon-turned");
 
-    // It is kept by the page, and taken back in two steps.
+    // It is taken back in two steps and done again, and the page keeps it.
+    for (const [key, document] of [["z", told.document], ["z", before.document], ["y", told.document], ["y", turned.document]]) {
+      await page.keyboard.press(`Control+${key}`);
+      await atRest(page, (state) => state.document === document);
+    }
+    assert.equal((await inspect(page)).figures.energy, turned.figures.energy);
     await page.reload();
     const again = await atRest(page, ({ document }) => document === turned.document);
     assert.ok(Math.abs(again.figures.energy / turned.figures.energy - 1) < 0.02);
     await page.locator('#scene-list [data-subject="curve 1"]').click();
     await untilInspect(page, ({ tool, handles, marked }) => tool === "shape" && handles.length === 4 && marked.strips === 1);
-    await page.keyboard.press("Control+z");
-    await atRest(page, ({ document }) => document === told.document);
-    await page.keyboard.press("Control+z");
-    await atRest(page, ({ document }) => document === before.document);
   });
 });
 

@@ -5,7 +5,7 @@ import { test } from "node:test";
 import { atRest, distance, documentOf, drawn, point, topology, withDocument } from "./support/model.mjs";
 import { inspect, until, untilInspect } from "./support/page.mjs";
 import { at, pixels } from "./support/pixels.mjs";
-import { ringOverDisc, ringedDisc, twoDiscs, twoRings } from "./support/rings.mjs";
+import { moebius, ringOverDisc, ringedDisc, twoDiscs, twoRings } from "./support/rings.mjs";
 
 /** A place on a curve, clear of panels and toasts and, if that can be, of control points: the sample farthest to the left. */
 function onCurve(state, id) {
@@ -252,5 +252,41 @@ test("what does not apply is not marked, and is refused with its reason", async 
     await refused(page, [400, 540], /no rim here/);
     await page.keyboard.press("d");
     await refused(page, [400, 540], /drawn on a surface/);
+  });
+});
+
+test("curves that are unlike, a rim and itself, and a region with one side are refused, each with its own reason", async () => {
+  const open = { through: [5, 6, 7], closed: false };
+  const unlike = { ...twoRings, name: "A ring and an arc", curves: { 1: twoRings.curves[1], 2: open } };
+  await withDocument(unlike, async (page, before) => {
+    const [ring, arc] = [1, 2].map((id) => onCurve(before, id));
+    await page.keyboard.press("s");
+    await refused(page, arc, /only a closed curve can be skinned/);
+    await page.keyboard.press("w");
+    await hover(page, ring, ({ hover }) => hover === "curve 1");
+    await page.mouse.click(...ring);
+    await untilInspect(page, ({ underWay }) => underWay);
+    await refused(page, ring, /two different curves/);
+    await hover(page, arc, ({ hover, marked }) => hover === "curve 2" && marked.lines === 0);
+    await refused(page, arc, /closed and the other is open/);
+  });
+  await withDocument(twoDiscs, async (page, before) => {
+    const one = onCurve(before, 1);
+    await page.keyboard.press("g");
+    await page.mouse.click(...one);
+    await untilInspect(page, ({ underWay }) => underWay);
+    // A click on its surface takes the same rim, which is marked once.
+    const beside = [one[0] + 12, one[1]];
+    await hover(page, beside, ({ marked }) => marked.rims === 1 && marked.lines === 0);
+    await refused(page, beside, /same rim .* cannot be joined with itself/);
+  });
+  await withDocument(moebius, async (page, strip) => {
+    await topology(page, "χ 0 · crosscaps 1 · 1 boundary · one-sided");
+    await page.keyboard.press("k");
+    await hover(page, onCurve(strip, 1), ({ hover }) => hover === "curve 1");
+    await refused(page, onCurve(strip, 1), /one side/);
+    await page.keyboard.press("x");
+    const band = await clickFor(page, onCurve(strip, 1), "Split");
+    assert.deepEqual(band.surfaces.map(({ summary }) => [summary.boundaries, summary.orientable]), [[2, true]]);
   });
 });

@@ -178,5 +178,7 @@ test("figure 3.1: a disc becomes a torus, is taken back to nothing, and comes ag
     const again = await atRest(page);
     assert.equal(again.document, torus.document);
     assert.deepEqual(again.surfaces[0].summary, surface.summary);
+    // What rested when it was left is brought back as it was, to the bit.
+    assert.equal(again.figures.energy, torus.figures.energy);
   });
 });

@@ -28,6 +28,8 @@ pub struct Model {
     pub patches: BTreeMap<SurfaceId, Arc<PatchShape>>,
     /// Where the shapes come from.
     pub(crate) making: Making,
+    /// Whether they had come to rest when they were last seen.
+    pub(crate) rests: bool,
     revisions: u64,
 }
 

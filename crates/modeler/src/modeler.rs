@@ -239,6 +239,7 @@ impl Modeler {
                 // What lies over the shapes gives them no reason to move.
                 if !displacing::is_over_shapes(&before.document, &self.model.document) {
                     self.model.making = settling::worked(&before, &self.model);
+                    self.model.rests = false;
                     self.relaxer.wake();
                 }
                 self.history.record(name, before);
@@ -267,6 +268,7 @@ impl Modeler {
                 self.grab = Some(grab);
                 self.footprints = self.displacer.footprints();
                 self.model.making = Making::Worked;
+                self.model.rests = false;
                 self.relaxer.wake();
                 Ok(Outcome { grabbed: Some(grabbed), ..Outcome::default() })
             }
@@ -386,12 +388,13 @@ impl Modeler {
         model.continue_revisions(&self.model);
         self.model = model;
         self.relaxer.wake();
-        match self.model.making {
-            // They are as they rested.
-            Making::Own => self.relaxer.rest(&self.model),
-            // The solvers that brought them here have seen other shapes since.
-            Making::Opened => self.model.making = Making::Worked,
-            Making::Worked | Making::Kept => {}
+        // The solvers that brought them here have seen other shapes since.
+        if self.model.making == Making::Opened {
+            self.model.making = Making::Worked;
+        }
+        // What rested like this rests: relaxed once more, it would end a little beside itself.
+        if self.model.rests || self.model.making == Making::Own {
+            self.relaxer.rest(&self.model);
         }
     }
 

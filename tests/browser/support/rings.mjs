@@ -102,3 +102,36 @@ export const discAndDome = {
     ]),
   ),
 };
+
+/** A Möbius strip, surface 1, with a curve along its core, curve 1: five quadrilaterals, halved by the core. */
+function strip() {
+  const [points, vertices, triangles] = [{}, [1, 2, 3, 4, 5], []];
+  for (let k = 0; k < 5; k += 1) {
+    const turn = (2 * Math.PI * k) / 5;
+    const [cos, sin] = [Math.cos(turn), Math.sin(turn)];
+    const short = (place) => place.map((x) => Number(x.toFixed(4)));
+    points[k + 1] = short([2 * cos, 2 * sin, 0]);
+    for (const side of [0.6, -0.6]) {
+      const radius = 2 + side * Math.cos(turn / 2);
+      vertices.push(short([radius * cos, radius * sin, side * Math.sin(turn / 2)]));
+    }
+    const next = (k + 1) % 5;
+    const [high, low] = [5 + 2 * k, 6 + 2 * k];
+    // Once round, what was above is below.
+    const [nextHigh, nextLow] = k === 4 ? [6, 5] : [high + 2, low + 2];
+    triangles.push([k, next, high], [next, nextHigh, high], [k, next, low], [next, nextLow, low]);
+  }
+  const curves = [{ curve: 1, along: [0, 1, 2, 3, 4] }];
+  return { points, skeleton: { vertices, triangles, curves } };
+}
+
+const { points: along, skeleton } = strip();
+
+export const moebius = {
+  ductile: 1,
+  name: "Möbius strip with its core",
+  spacing: 0.35,
+  points: along,
+  curves: { 1: { through: [1, 2, 3, 4, 5], closed: true } },
+  surfaces: { 1: { skeleton } },
+};

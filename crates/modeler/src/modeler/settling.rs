@@ -94,7 +94,8 @@ impl Modeler {
 
     /// What was built from the document and has come to rest is its own.
     pub(super) fn note_rest(&mut self) {
-        if self.model.making == Making::Opened && self.relaxer.is_settled() && !self.is_holding() {
+        self.model.rests = self.relaxer.is_settled() && !self.is_holding();
+        if self.model.making == Making::Opened && self.model.rests {
             self.model.making = if self.relaxer.is_stinted() { Making::Worked } else { Making::Own };
         }
     }
@@ -102,6 +103,7 @@ impl Modeler {
     fn arrive(&mut self, slide: &Slide) {
         slide.end(&mut self.model);
         self.model.making = Making::Own;
+        self.model.rests = true;
         self.relaxer.rest(&self.model);
     }
 
