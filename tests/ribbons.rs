@@ -251,6 +251,12 @@ fn handles_turn_a_ribbon_and_a_normal_in_one_act_and_cancel_puts_them_back() {
             .unwrap();
         let angle = if handle == ribbon { plane.dot(kept) } else { plane.cross(kept).length() };
         assert!(angle.abs() < 1e-3, "{act}: {plane} and {kept}");
+        // What undo and redo bring back is at rest as it was.
+        let energy = bench.rest(1);
+        bench.accept(Request::Undo);
+        bench.accept(Request::Redo);
+        let again = bench.rest(1);
+        assert!((again / energy - 1.0).abs() < 1e-12, "{act}: {again} for {energy}");
         // The whole drag is one act, and a press without a turn is none.
         bench.accept(Request::Undo);
         assert_eq!((bench.document.clone(), places(&bench)), (before.clone(), shape));

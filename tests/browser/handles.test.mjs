@@ -93,7 +93,8 @@ test("a rim is picked, its strip is shown, and a handle turns it under the point
       await page.keyboard.press(`Control+${key}`);
       await atRest(page, (state) => state.document === document);
     }
-    assert.equal((await inspect(page)).figures.energy, turned.figures.energy);
+    const { energy } = (await inspect(page)).figures;
+    assert.ok(Math.abs(energy / turned.figures.energy - 1) < 1e-9, `${energy} for ${turned.figures.energy}`);
     await page.reload();
     const again = await atRest(page, ({ document }) => document === turned.document);
     assert.ok(Math.abs(again.figures.energy / turned.figures.energy - 1) < 0.02);

@@ -136,7 +136,10 @@ impl Relaxer {
 
     /// Takes it for granted that the shapes rest: they were at rest when they looked like this before.
     pub(crate) fn rest(&mut self, model: &Model) {
-        self.bind(model);
+        self.rebind(model);
+        // Planes turn little by little; in the shapes of before they had arrived.
+        self.surfaces.values_mut().for_each(|bound| bound.solver.arrive());
+        self.surfaces.values_mut().for_each(BoundSurface::fit);
         let rest = |bound: &BoundSurface| Relaxation {
             energy: bound.energy(),
             at_rest: true,

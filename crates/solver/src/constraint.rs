@@ -145,6 +145,11 @@ impl Planes {
         }
     }
 
+    /// Every plane is where it was prescribed.
+    pub(crate) fn arrive(&mut self) {
+        self.list.iter_mut().for_each(|plane| plane.now = Some(plane.target));
+    }
+
     /// Turns every plane towards what is asked for, as far as one step may; returns whether any turned.
     pub(crate) fn turn(&mut self, clamps: &[Clamp]) -> bool {
         let mut has_turned = false;

@@ -47,6 +47,15 @@ impl SurfaceSolver {
         self.goals.planes.as_ref().map_or(0.0, Planes::left)
     }
 
+    /// Takes it that all planes are where they were prescribed: the positions that come next had been brought there before.
+    pub fn arrive(&mut self) {
+        if let Some(planes) = &mut self.goals.planes {
+            planes.arrive();
+            self.fits.forget();
+            self.trial.forget();
+        }
+    }
+
     /// Sets up for what is minimised now, with these planes.
     pub(super) fn set_goals(&mut self, planes: Option<Planes>) {
         self.goals = Goals::new(&self.rings, &self.objectives, planes);
