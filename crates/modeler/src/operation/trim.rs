@@ -107,6 +107,7 @@ fn check(kept: [On; 2], is_smooth: bool, ribbon: Option<JoinRibbon>) -> Result<(
 /// Cuts both surfaces along curves that bound what is kept of them, and gives up the rest.
 fn cut(model: &mut Model, kept: [On; 2], common: &[CurveId]) -> Result<(), ModelError> {
     let before = kept.map(|on| model.surfaces.get(&on.surface).map(Arc::clone));
+    let known: BTreeSet<CurveId> = model.curves.keys().copied().collect();
     for on in kept {
         let (shape, is_in) = part_of(model, on, common)?;
         let edges = edges_around(&shape.mesh, &is_in);
@@ -117,7 +118,13 @@ fn cut(model: &mut Model, kept: [On; 2], common: &[CurveId]) -> Result<(), Model
         let opening = open(model, on.surface, &edges, Some(is_gone))?;
         settle(model, on.surface, opening, Banks::Joint)?;
     }
-    // The rims of what was cut off are nobody's any more.
+    // The rims of what was cut off are nobody's any more, nor are those parts of divided curves that lay there.
+    for part in model.curves.keys().copied().filter(|id| !known.contains(id)).collect::<Vec<_>>() {
+        if model.document.surfaces_on(part).next().is_none() {
+            model.document_mut().curves.remove(&part);
+            model.curves.remove(&part);
+        }
+    }
     before.iter().flatten().for_each(|shape| forget_lost_curves(model, shape));
     Ok(())
 }

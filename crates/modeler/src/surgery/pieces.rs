@@ -51,9 +51,9 @@ pub(crate) fn settle(
         return Err(ModelError::OneSided(run.curve));
     }
     let twins = if banks == Banks::Apart { copy_points(model, &mut opening) } else { BTreeMap::new() };
-    let (followed, parts) = match banks {
+    let followed = match banks {
         Banks::Joint => divide_joint(model, &opening),
-        Banks::Apart => (follow_apart(model, id, &opening)?, Vec::new()),
+        Banks::Apart => follow_apart(model, id, &opening)?,
     };
     let labels = components(&opening.mesh);
     let mut order: Vec<(usize, usize)> = labels
@@ -89,7 +89,6 @@ pub(crate) fn settle(
     for name in core::iter::once(id).chain(made.iter().copied()) {
         refresh_skeleton(model, name);
     }
-    forget_parts(model, &parts);
     crate::operation::forget_unused_points(model, &before);
     crate::operation::forget_lost_planes(model);
     crate::operation::forget_lost_shadows(model);
@@ -111,10 +110,9 @@ fn copy_points(model: &mut Model, opening: &mut Opening) -> BTreeMap<PointId, Po
     twins
 }
 
-/// All runs follow the curves that they are of; a curve of which some run is only a part is divided at its ends first. Gives
-/// the parts, too.
-fn divide_joint(model: &mut Model, opening: &Opening) -> (Vec<Followed>, Vec<CurveId>) {
-    let (mut followed, mut parts) = (Vec::new(), Vec::new());
+/// All runs follow the curves that they are of; a curve of which some run is only a part is divided at its ends first.
+fn divide_joint(model: &mut Model, opening: &Opening) -> Vec<Followed> {
+    let mut followed = Vec::new();
     let curves: BTreeSet<CurveId> = opening.runs.iter().map(|run| run.curve).collect();
     for id in curves {
         let runs: Vec<&Run> = opening.runs.iter().filter(|run| run.curve == id).collect();
@@ -126,14 +124,13 @@ fn divide_joint(model: &mut Model, opening: &Opening) -> (Vec<Followed>, Vec<Cur
         let ends: BTreeSet<usize> =
             ends.flat_map(|run| [run.samples[0], run.samples[run.samples.len() - 1]]).collect();
         let pieces = divide(model, id, &ends);
-        parts.extend(pieces.iter().map(|(curve, ..)| *curve));
         for run in runs {
             for (curve, first, last) in &pieces {
                 followed.extend(part_of(run, *first, *last).map(|run| Followed { run, curve: *curve }));
             }
         }
     }
-    (followed, parts)
+    followed
 }
 
 /// The part of a run from one sample to another, if it has it.
@@ -353,16 +350,6 @@ fn forget_curves(model: &mut Model, before: &SurfaceShape, followed: &[Followed]
         if !stays {
             model.document_mut().curves.remove(&id);
             model.curves.remove(&id);
-        }
-    }
-}
-
-/// Parts of divided curves that lay in what was given up go with it.
-fn forget_parts(model: &mut Model, parts: &[CurveId]) {
-    for id in parts {
-        if model.document.surfaces_on(*id).next().is_none() {
-            model.document_mut().curves.remove(id);
-            model.curves.remove(id);
         }
     }
 }
