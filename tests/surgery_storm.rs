@@ -166,9 +166,10 @@ fn random_surgery_keeps_every_promise() {
     let told: Vec<String> =
         faults.values().map(|(count, text)| format!("--- {count} times like this\n{text}")).collect();
     assert!(faults.is_empty(), "{} kinds of faults\n{}", faults.len(), told.join("\n"));
-    for name in
-        ["Draw", "Burn out", "Split", "Crease", "Smooth", "Glue", "Merge", "Sweep", "Expand", "Reverse"]
-    {
+    for name in [
+        "Draw", "Burn out", "Split", "Crease", "Smooth", "Glue", "Merge", "Sweep", "Expand", "Reverse",
+        "Shadow",
+    ] {
         assert!(tally.acts.get(name).is_some_and(|(done, _)| *done > 0), "{name} was never done");
     }
 }

@@ -3,8 +3,8 @@
 use ductile_mesh::measure::face_normal;
 use ductile_modeler::{Model, SurfaceShape};
 use ductile_spec::{
-    Blending, Border, Combination, CurveId, Displacement, Edit, Extent, Hold, Leave, Objective, ObjectiveOf,
-    On, PointId, Request, SpacingOf, Step, SurfaceId, Through,
+    Blending, Border, Combination, CurveId, Displacement, Edit, Extent, Hold, JoinRibbon, Leave, Objective,
+    ObjectiveOf, On, PointId, Request, SpacingOf, Step, SurfaceId, Through,
 };
 use glam::DVec3;
 
@@ -116,7 +116,7 @@ fn edit(dice: &mut Dice, model: &Model) -> Edit {
     let surface = dice.pick(&surfaces).filter(|_| !is_wild).unwrap_or(SurfaceId(99));
     let shape = model.surfaces.get(&surface).map(|shape| &**shape);
     let at = place(dice, model, shape);
-    match dice.below(44) {
+    match dice.below(49) {
         0..=8 => Edit::SLoop { surface, along: Vec::new(), closed: false }.drawn(dice, model, shape),
         9..=11 => Edit::Burnout { region: On { surface, at } },
         12..=14 => Edit::Split { border: border(dice, model, curve, On { surface, at }) },
@@ -183,9 +183,35 @@ fn edit(dice: &mut Dice, model: &Model) -> Edit {
             }
             Edit::Curve { through, closed }
         }
-        _ if dice.coin() => displacing(dice, surface, at),
+        43 => {
+            let of = dice.pick(&surfaces).filter(|of| *of != surface || is_wild);
+            let turn = Some(3.0 * dice.unit()).filter(|_| dice.coin());
+            Edit::Shadow { region: On { surface, at }, of, strength: 2.0 * dice.unit() - 0.5, turn }
+        }
+        44 => Edit::Embed { curve, surface },
+        45 => {
+            let other = dice.pick(&surfaces).unwrap_or(surface);
+            let there = place(dice, model, model.surfaces.get(&other).map(|shape| &**shape));
+            let ribbon = [None, Some(JoinRibbon::AsMet), Some(JoinRibbon::Angle(3.0 * dice.unit()))];
+            let (first, second) = (On { surface, at }, On { surface: other, at: there });
+            Edit::Trim { first, second, smooth: dice.coin(), ribbon: ribbon[dice.below(3)] }
+        }
+        46 => {
+            let to = dice.pick(&curves).unwrap_or(curve);
+            let stretches = [curve, to].map(|curve| stretch(dice, model, curve));
+            Edit::Sweep { from: curve, to, stretches, reversed: dice.coin() }
+        }
+        47 if dice.below(3) == 0 => Edit::Bake { surface },
+        47 | 48 => displacing(dice, surface, at),
         _ => Edit::Tangent { curve, point, direction: Some(dice.vector()) },
     }
+}
+
+/// Two control points of a curve, or all of it.
+fn stretch(dice: &mut Dice, model: &Model, curve: CurveId) -> Option<[PointId; 2]> {
+    let through = &model.document.curves.get(&curve)?.through;
+    let ends = [dice.pick(through)?, dice.pick(through)?];
+    Some(ends).filter(|_| dice.below(4) > 0)
 }
 
 /// An act on displacements.
@@ -193,7 +219,8 @@ fn displacing(dice: &mut Dice, surface: SurfaceId, at: DVec3) -> Edit {
     let range = 0.9 - 2.0 * dice.unit();
     let displacement = Displacement { range, ..Displacement::new(at, 0.3 * dice.vector()) };
     let number = 1 + dice.below(3);
-    match dice.below(8) {
+    match dice.below(9) {
+        8 => Edit::AddFoot { surface, number, at },
         0 => Edit::ChangeDisplacement { surface, number, to: displacement },
         1 => Edit::EraseDisplacement { surface, number },
         2 => Edit::DropDisplacements { surface },

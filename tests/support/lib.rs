@@ -142,7 +142,8 @@ impl Bench {
         assert!(model.curves.keys().eq(model.document.curves.keys()), "curves after {asked}");
         assert!(model.surfaces.keys().eq(model.document.surfaces.keys()), "surfaces after {asked}");
         let document = &model.document;
-        let exact: BTreeSet<_> = document.cages.keys().chain(document.fills.keys()).collect();
+        let fixed = document.meshes.keys();
+        let exact: BTreeSet<_> = document.cages.keys().chain(document.fills.keys()).chain(fixed).collect();
         assert!(model.patches.keys().eq(exact), "exact surfaces after {asked}");
         for (id, shape) in &model.surfaces {
             validate(&shape.mesh).unwrap_or_else(|defects| panic!("{id}: {defects:?} after {asked}"));

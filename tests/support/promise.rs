@@ -22,8 +22,8 @@ pub fn promise(model: &Model, edit: &Edit) -> Option<Vec<Vec<Kind>>> {
     };
     match edit {
         Edit::Sheet { .. } => Some(vec![instead(&[], &[(1, 1, true)])]),
-        Edit::Sweep { from, .. } => {
-            let closed = model.curves.get(from)?.closed;
+        Edit::Sweep { from, stretches, .. } => {
+            let closed = model.curves.get(from)?.closed && stretches.iter().all(Option::is_none);
             Some(vec![instead(&[], &[if closed { (0, 2, true) } else { (1, 1, true) }])])
         }
         Edit::Burnout { region } => {
@@ -57,7 +57,9 @@ pub fn promise(model: &Model, edit: &Edit) -> Option<Vec<Vec<Kind>>> {
             let (gone, made) = joined(model, *curve, &kind)?;
             Some(made.into_iter().map(|made| instead(&gone, &[made])).collect())
         }
-        Edit::DeleteSurface { surface } => Some(vec![instead(&[*surface], &[])]),
+        // What it leaves depends on where the surfaces meet.
+        Edit::Trim { .. } => None,
+        Edit::DeleteSurface { surface } | Edit::Bake { surface } => Some(vec![instead(&[*surface], &[])]),
         _ => Some(vec![instead(&[], &[])]),
     }
 }

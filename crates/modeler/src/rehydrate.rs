@@ -185,7 +185,8 @@ pub(crate) fn build_surface(
     }
     check_area(id, measure::total_area(&mesh, &positions), &positions, spacing)?;
     for embedding in &skeleton.curves {
-        mark_path(&mut mesh, skeleton, embedding);
+        let curve = curves.get(&embedding.curve).ok_or(ModelError::NoCurve(embedding.curve))?;
+        mark_path(&mut mesh, embedding, curve.closed);
     }
     remesh::tighten(&mut mesh, &positions);
     let (embeddings, pins, wanted) = (Vec::new(), Vec::new(), Vec::new());
@@ -293,13 +294,14 @@ fn embedded(path: &Path, curves: &BTreeMap<CurveId, Arc<CurveShape>>) -> Embedde
 }
 
 /// Marks the skeleton's edges on a curve.
-fn mark_path(mesh: &mut Mesh, skeleton: &Skeleton, embedding: &Embedding) {
-    let vertex = |v: u32| VertexId::from_index(v as usize);
-    for chain in chains(skeleton, &embedding.along) {
-        for pair in chain.windows(2) {
-            if let Some(edge) = mesh.edge_between(vertex(pair[0]), vertex(pair[1])) {
-                mesh.set_edge_source(edge, Some(SourceTag(embedding.curve.0)));
-            }
+fn mark_path(mesh: &mut Mesh, embedding: &Embedding, is_closed: bool) {
+    let along: Vec<VertexId> = embedding.along.iter().map(|v| VertexId::from_index(*v as usize)).collect();
+    let last = along.last().filter(|_| is_closed);
+    for (from, to) in
+        last.into_iter().chain(&along).zip(if is_closed { &along[..] } else { along.get(1..).unwrap_or(&[]) })
+    {
+        if let Some(edge) = mesh.edge_between(*from, *to) {
+            mesh.set_edge_source(edge, Some(SourceTag(embedding.curve.0)));
         }
     }
 }
