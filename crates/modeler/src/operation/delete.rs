@@ -46,13 +46,8 @@ pub(crate) fn curve(model: &mut Model, id: CurveId) -> Result<(), ModelError> {
             .flat_map(|e| e.vertices.clone())
             .collect::<Vec<_>>()
         {
-            let shared = shape.mesh.vertex_source(vertex).is_some_and(|tag| {
-                model
-                    .document
-                    .curves
-                    .iter()
-                    .any(|(other, c)| *other != id && c.through.contains(&PointId(tag.0)))
-            });
+            // A curve beside the surface may share the point: that does not hold the surface.
+            let shared = shape.embeddings.iter().any(|e| e.curve != id && e.vertices.contains(&vertex));
             if !shared {
                 shape.mesh.set_vertex_source(vertex, None);
             }
