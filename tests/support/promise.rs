@@ -9,6 +9,12 @@ use glam::DVec3;
 /// The kinds that there may be after an act if it is done, each list in order; `None` if nothing is promised.
 #[must_use]
 pub fn promise(model: &Model, edit: &Edit) -> Option<Vec<Vec<Kind>>> {
+    // Places on a displaced surface are carried back to the one below, which is not done again here.
+    let is_shadowed =
+        |surface: &ductile_spec::Surface| surface.regions.iter().any(|region| region.shadow.is_some());
+    if !model.document.displacements.is_empty() || model.document.surfaces.values().any(is_shadowed) {
+        return None;
+    }
     let now = kinds(model);
     let without = |gone: &[SurfaceId]| -> Vec<Kind> {
         now.iter().filter(|(id, _)| !gone.contains(id)).map(|(_, kind)| *kind).collect()

@@ -70,7 +70,8 @@ fn bend_around(mesh: &Mesh, positions: &[DVec3], e: EdgeId) -> f64 {
         let [a, b] = mesh.edge_vertices(e).map(|v| positions[v.index()]);
         a.distance(b) * angle(mesh, positions, e)
     };
-    around(mesh, e).into_iter().map(bend).sum()
+    // Where a curve runs a surface may well turn, as a plate does into a tube: that is not to be traded for a fold beside it.
+    around(mesh, e).into_iter().filter(|&e| !mesh.is_source_edge(e)).map(bend).sum()
 }
 
 #[cfg(test)]
