@@ -33,8 +33,8 @@ const KNOWN: [Known; Example::BUILT.len()] = [
     known(Example::GluedCylinders, (0, 2, true), 24.755, 30.0),
     known(Example::Handle, (-2, 0, true), 189.688, 25.0),
     known(Example::KleinMug, (0, 0, false), 144.878, 25.0),
-    known(Example::ThreeHandles, (-4, 0, true), 211.504, 22.0),
-    known(Example::MoebiusStrip, (0, 1, false), 4.095, 30.0),
+    known(Example::ThreeHandles, (-4, 0, true), 212.963, 25.0),
+    known(Example::MoebiusStrip, (0, 1, false), 4.089, 30.0),
     known(Example::Spout, (1, 1, true), 48.149, 27.0),
 ];
 
