@@ -27,6 +27,7 @@ pub fn example(example: Example) -> Document {
         Example::ThreeHandles => built(include_str!("example/three-handles.ductile.json")),
         Example::MoebiusStrip => built(include_str!("example/moebius-strip.ductile.json")),
         Example::Spout => built(include_str!("example/spout.ductile.json")),
+        Example::BoredBall => built(include_str!("example/bored-ball.ductile.json")),
         Example::TorusCage => caged(CageForm::Torus),
         Example::Trebol => caged(CageForm::Trebol),
         Example::Icosahedron => caged(CageForm::Icosahedron),

@@ -32,8 +32,11 @@ pub enum Example {
     ThreeHandles,
     /// A surface with one side and one edge.
     MoebiusStrip,
-    /// A ball and a cylinder, trimmed against each other and joined (thesis figures 3.4 and 3.5).
+    /// A ball and a cylinder that ends in it, trimmed against each other and joined.
     Spout,
+    /// A ball and a cylinder through it, trimmed and joined to a torus; one of the two curves in which they met is widened
+    /// (thesis figures 3.4 and 3.5).
+    BoredBall,
     /// A surface over a cage of quads round a hole.
     TorusCage,
     /// A surface over a cage of three lobes with a hole through each.
@@ -47,7 +50,7 @@ impl Example {
     pub const PLAIN: [Self; 5] = [Self::Disc, Self::RaisedDisc, Self::Saddle, Self::Cylinder, Self::Ball];
 
     /// The constructions of the thesis, which a script of acts builds.
-    pub const BUILT: [Self; 9] = [
+    pub const BUILT: [Self; 10] = [
         Self::Torus,
         Self::PartyHat,
         Self::CappedCylinder,
@@ -57,6 +60,7 @@ impl Example {
         Self::ThreeHandles,
         Self::MoebiusStrip,
         Self::Spout,
+        Self::BoredBall,
     ];
 
     /// Surfaces over cages.
@@ -85,6 +89,7 @@ impl Example {
             Self::ThreeHandles => "Three handles",
             Self::MoebiusStrip => "Möbius strip",
             Self::Spout => "Ball with a spout",
+            Self::BoredBall => "Ball with a bore",
             Self::TorusCage => "Torus on a cage",
             Self::Trebol => "Trebol on a cage",
             Self::Icosahedron => "Icosahedron",
@@ -109,6 +114,7 @@ impl Example {
             Self::ThreeHandles => "three-handles",
             Self::MoebiusStrip => "moebius-strip",
             Self::Spout => "spout",
+            Self::BoredBall => "bored-ball",
             Self::TorusCage => "torus-cage",
             Self::Trebol => "trebol",
             Self::Icosahedron => "icosahedron",

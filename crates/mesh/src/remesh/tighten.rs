@@ -3,21 +3,21 @@
 //! Source: Alboul and van Damme (1996), "Polyhedral metrics in surface reconstruction: tight triangulations". The measure is the total absolute
 //! mean curvature of a polyhedron, Σ length × angle between the normals. A few large triangles between the points of a tube may run
 //! through its inside and back; what is refined from such a skin has folds that no smoothing opens. Skins that bend
-//! nowhere by more than 120° stay what they are.
+//! nowhere by more than 135° stay what they are.
 
 use glam::DVec3;
 
 use crate::measure::{angle_between, face_normal};
 use crate::{EdgeId, Mesh};
 
-/// From this angle between the normals on an edge is sharp: 120°. Where three flat faces go round a tube, it is no fold.
-const SHARP: f64 = 2.1;
+/// From this angle between the normals on an edge is sharp: 135°. Where three flat faces go round a tube they bend by 120°, and that is no fold.
+const SHARP: f64 = 2.356;
 /// Flips in one run, for each edge.
 const FLIPS: usize = 4;
 /// A flip must lower the measure by this part of what the five edges have.
 const LEAST_GAIN: f64 = 1e-6;
 
-/// Flips inner edges without a tag over which the surface bends by more than 120°, and those around them, while
+/// Flips inner edges without a tag over which the surface bends by more than 135°, and those around them, while
 /// that makes the total of length times angle less. Returns the number of flips, which is bounded.
 pub fn tighten(mesh: &mut Mesh, positions: &[DVec3]) -> usize {
     let mut stack: Vec<EdgeId> = mesh.edges().filter(|&e| is_sharp(mesh, positions, e)).collect();
