@@ -64,7 +64,7 @@ export async function picture(page) {
   await drawn(page);
   const { width, height } = page.viewportSize();
   const whole = await pixels(page, undefined);
-  const [left, top, right, bottom] = [60, 104, width - 240, height - 140];
+  const [left, top, right, bottom] = [60, 104, width - 256, height - 140];
   const part = { width: right - left, height: bottom - top, data: Buffer.alloc(4 * (right - left) * (bottom - top)) };
   for (let y = 0; y < part.height; y += 1) {
     const start = 4 * ((top + y) * whole.width + left);
