@@ -147,6 +147,14 @@ impl Planes<'_> {
         if after(at_b, corner) == Some(a) || after(at_b, a) != Some(corner) { 1.0 } else { -1.0 }
     }
 
+    /// A curve and how the surface follows it.
+    fn followed(&self, id: SurfaceId, curve: CurveId) -> Result<(&EmbeddedCurve, &CurveShape), ModelError> {
+        let embedded = self.shape.embeddings.iter().find(|embedded| embedded.curve == curve);
+        embedded
+            .zip(self.model.curves.get(&curve).map(|shape| &**shape))
+            .ok_or(ModelError::NotInSurface { surface: id, curve })
+    }
+
     /// The directions in which the surface leaves a curve now, by control point; none where curves cross, since their tangents
     /// are the plane there.
     pub(crate) fn left_now(
@@ -154,10 +162,7 @@ impl Planes<'_> {
         id: SurfaceId,
         curve: CurveId,
     ) -> Result<BTreeMap<PointId, DVec3>, ModelError> {
-        let embedded = self.shape.embeddings.iter().find(|embedded| embedded.curve == curve);
-        let (Some(embedded), Some(shape)) = (embedded, self.model.curves.get(&curve)) else {
-            return Err(ModelError::NotInSurface { surface: id, curve });
-        };
+        let (embedded, shape) = self.followed(id, curve)?;
         let (turned, crossings) = (self.along(embedded, shape), self.crossings());
         let mut cross = BTreeMap::new();
         for (sample, point) in &shape.controls {
@@ -181,10 +186,7 @@ impl Planes<'_> {
         curve: CurveId,
         angle: f64,
     ) -> Result<BTreeMap<PointId, DVec3>, ModelError> {
-        let embedded = self.shape.embeddings.iter().find(|embedded| embedded.curve == curve);
-        let (Some(embedded), Some(shape)) = (embedded, self.model.curves.get(&curve)) else {
-            return Err(ModelError::NotInSurface { surface: id, curve });
-        };
+        let (embedded, shape) = self.followed(id, curve)?;
         let plane = unit(area(&shape.nodes)).ok_or(ModelError::NoPlane(curve))?;
         let tangents = tangents(&self.model.document, curve, shape);
         let turned = self.along(embedded, shape);
