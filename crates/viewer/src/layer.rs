@@ -4,8 +4,8 @@
 //! The *overlay* (ring, ghosts, triad) is a handful of marks made anew for each picture.
 
 use crate::buffer::GrowingBuffer;
-use crate::curve_pass::append_polyline;
 use crate::pipeline::Layouts;
+use crate::polyline::append_polyline;
 use crate::uniforms::{Dot, Segment, Style};
 use glam::Vec3;
 use wgpu::{BindGroup, Device, Queue};

@@ -3,11 +3,10 @@
 use crate::background_pass::BackgroundPass;
 use crate::buffer::GrowingBuffer;
 use crate::camera::Camera;
-use crate::curve_pass::CurvePass;
 use crate::layer::{Layer, Marks};
 use crate::look::{Highlight, Look};
+use crate::mark_pass::MarkPass;
 use crate::pipeline::{DEPTH_FORMAT, Layouts, Workshop};
-use crate::point_pass::PointPass;
 use crate::scene::Scene;
 use crate::skeleton::{Skeleton, add_highlight};
 use crate::surface_pass::SurfacePass;
@@ -36,8 +35,8 @@ pub(crate) struct Painter {
 
     background: BackgroundPass,
     surfaces: SurfacePass,
-    curves: CurvePass,
-    points: PointPass,
+    curves: MarkPass,
+    points: MarkPass,
 
     /// The numbers of the frame, on which surfaces and skeleton stand.
     floats: GrowingBuffer,
@@ -78,8 +77,8 @@ impl Painter {
         Self {
             background: BackgroundPass::new(&workshop),
             surfaces: SurfacePass::new(&workshop),
-            curves: CurvePass::new(&workshop),
-            points: PointPass::new(&workshop),
+            curves: MarkPass::curves(&workshop),
+            points: MarkPass::points(&workshop),
             floats: GrowingBuffer::new(&device, "numbers"),
             has_frame: false,
             skeleton: Skeleton::default(),

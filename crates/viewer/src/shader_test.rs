@@ -4,8 +4,7 @@
 #![cfg(not(target_arch = "wasm32"))]
 
 use crate::background_pass::{BACKGROUND_SHADER, GRID_SHADER};
-use crate::curve_pass::CURVE_SHADER;
-use crate::point_pass::POINT_SHADER;
+use crate::mark_pass::{CURVE_SHADER, POINT_SHADER};
 use crate::surface_pass::SURFACE_SHADER;
 use crate::uniforms::{Dot, Frame, Segment, Style, SurfaceStyle};
 use naga::valid::{Capabilities, ValidationFlags, Validator};

@@ -1,10 +1,10 @@
 //! What curves and points look like: roles, hover, selection, and the marks that tools add.
 
 use crate::camera::Camera;
-use crate::curve_pass::append_polyline;
 use crate::layer::{Marks, length};
 use crate::look::Highlight;
 use crate::pick::Hit;
+use crate::polyline::append_polyline;
 use crate::scene::Scene;
 use crate::strip::Strip;
 use crate::theme::Theme;

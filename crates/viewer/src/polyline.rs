@@ -1,55 +1,6 @@
-//! Draws curves: dimmed where something hides them, in full elsewhere.
+//! The segments of a drawn curve: each pulls its two ends and the samples before and after them.
 
-use crate::pipeline::{Meets, Pulls, Recipe, Workshop};
 use crate::uniforms::Segment;
-use std::ops::Range;
-use wgpu::{BindGroup, RenderPass, RenderPipeline};
-
-/// The curves.
-pub(crate) const CURVE_SHADER: &str =
-    concat!(include_str!("../../../shaders/frame.wgsl"), include_str!("../../../shaders/curve.wgsl"));
-
-#[derive(Debug)]
-pub(crate) struct CurvePass {
-    visible: RenderPipeline,
-    hidden: RenderPipeline,
-}
-
-impl CurvePass {
-    pub(crate) fn new(workshop: &Workshop<'_>) -> Self {
-        let shader = workshop.shader("curve", CURVE_SHADER);
-        let visible = Recipe {
-            label: "curves",
-            vertex: "curve_vertex",
-            fragment: "curve_fragment",
-            meets: Meets::Visible,
-            is_quad: true,
-            pulls: Pulls::ThreeBuffers,
-        };
-        let hidden = Recipe {
-            label: "hidden curves",
-            fragment: "hidden_curve_fragment",
-            meets: Meets::Hidden,
-            ..visible
-        };
-        Self { visible: workshop.pipeline(&shader, &visible), hidden: workshop.pipeline(&shader, &hidden) }
-    }
-
-    pub(crate) fn draw(
-        &self,
-        pass: &mut RenderPass<'_>,
-        group: &BindGroup,
-        segments: Range<u32>,
-        is_hidden: bool,
-    ) {
-        if segments.is_empty() {
-            return;
-        }
-        pass.set_pipeline(if is_hidden { &self.hidden } else { &self.visible });
-        pass.set_bind_group(1, group, &[]);
-        pass.draw(0..4, segments);
-    }
-}
 
 /// Appends the segments of a polyline whose samples lie one after the other, three floats each.
 pub(crate) fn append_polyline(segments: &mut Vec<Segment>, first: u32, count: u32, closed: bool, style: u32) {
