@@ -58,6 +58,11 @@ fn c(_: &mut Criterion) {
 }
 
 #[wasm_bindgen_bench]
+fn d(_: &mut Criterion) {
+    measure("d");
+}
+
+#[wasm_bindgen_bench]
 fn e(_: &mut Criterion) {
     measure("e");
 }
