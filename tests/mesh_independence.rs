@@ -2,7 +2,8 @@
 //!
 //! One document is solved with about 600, 2,500 and 10,000 nodes, and with 10,000 on three triangulations that were scrambled by
 //! moving control points out and home again. All are held against one fine solution: the triangles of the finest mesh, each in
-//! sixteen, relaxed by the solvers alone, and taken as the smooth surface that they sample (`acceptance::reference`), so that
+//! sixteen (and finer still at the ends of curves inside, where edges are graded), relaxed by the solvers alone, and taken as the
+//! smooth surface that they sample (`acceptance::reference`), so that
 //! neither the facets nor what the modeler does to meshes are part of the figures. Its own error is a sixteenth of that at 10,000
 //! nodes where the order is two.
 
@@ -11,7 +12,7 @@
 
 use acceptance::Bench;
 use acceptance::reference::{Deviation, Reference};
-use acceptance::refined::refined;
+use acceptance::refined::{refined, sharpened};
 use acceptance::shapes::{ridged_saddle, ringed_saddle, torus};
 use acceptance::solved::{Solved, opened, solve, solved};
 use ductile_spec::{Document, Edit, Example};
@@ -45,7 +46,7 @@ impl Figures {
         let coarse = [4.0, 2.0].map(|times| solve(document, times * spacing));
         let mut bench = opened(document, spacing);
         let plain = solved(&mut bench);
-        let fine = refined(&refined(&plain));
+        let fine = sharpened(&sharpened(&refined(&refined(&plain))));
         let reference = Reference::new(&fine);
         let measure = |shape: &Solved, what: &str| {
             let found = reference.deviation(shape);
@@ -128,10 +129,10 @@ fn a_saddle_with_a_closed_curve_inside_is_the_same_on_any_mesh() {
     is_independent("ringed saddle", &ringed_saddle(), [0.0224, REACH], 0.9);
 }
 
-/// At the end of an open curve inside a surface the bending grows without bound, as `r^(-1/2)`: on meshes of even density nothing
-/// is exact to more than the first order (Grisvard, Elliptic Problems in Nonsmooth Domains, 1985).
+/// At the end of an open curve inside a surface the bending grows without bound, as `r^(-1/2)`. On meshes of even density nothing
+/// is exact to more than the first order then; edges that grow with the root of the distance bring the second order back, but
+/// for a logarithm (`modeler/density/ends`). The rim twists here as well.
 #[test]
-fn a_saddle_with_an_open_curve_inside_comes_nearer_on_finer_meshes() {
-    let figures = Figures::of("ridged saddle", &ridged_saddle(), 0.0217, REACH);
-    assert!(figures.order(|d| d.rms) > 1.0, "{:?}", figures.meshes);
+fn a_saddle_with_an_open_curve_inside_is_the_same_on_any_mesh() {
+    is_independent("ridged saddle", &ridged_saddle(), [0.0229, REACH], 1.5);
 }

@@ -1,4 +1,5 @@
-//! How long edges should be, here and there: by curvature, by region, and where surfaces of different spacing share a curve.
+//! How long edges should be, here and there: by curvature, by region, at the ends of curves, and where surfaces of different spacing
+//! share a curve.
 //!
 //! Recipe, section 7 "Sizing". At a vertex where the largest curvature is k, an edge of `0.35 / k` bends by a third of a
 //! radian; it is held between 0.35 and 1.6 of the spacing that document, surface or region say. What neighbours want may
@@ -6,6 +7,7 @@
 //! when they must change by much, so that a mesh at rest is left alone.
 
 mod bend;
+mod ends;
 mod relief;
 mod skeleton;
 
@@ -26,9 +28,14 @@ const SLOPE: f64 = 0.25;
 /// factor of two apart, so lengths within this band undo no edit.)
 const BAND: f64 = 0.15;
 
-/// The surfaces whose edges are not to be equally long everywhere: those that say so, and those that meet them, or one of
-/// another spacing, at a curve.
+/// The surfaces whose edges are not to be equally long everywhere by the words of the document: those that say so, and those that
+/// meet them, or one of another spacing, at a curve.
 pub(crate) fn graded(model: &Model) -> BTreeSet<SurfaceId> {
+    graded_and(model, |_| false)
+}
+
+/// The same with surfaces that are graded for another reason, and those that meet them.
+fn graded_and(model: &Model, is_so_anyway: impl Fn(SurfaceId) -> bool) -> BTreeSet<SurfaceId> {
     let document = &model.document;
     let says_so = |id: SurfaceId, surface: &Surface| {
         document.density_of_surface(id) == Density::Curvature
@@ -36,7 +43,7 @@ pub(crate) fn graded(model: &Model) -> BTreeSet<SurfaceId> {
     };
     let all = document.surfaces.iter();
     let mut graded: BTreeSet<_> =
-        all.filter(|(id, surface)| says_so(**id, surface)).map(|(id, _)| *id).collect();
+        all.filter(|(id, surface)| says_so(**id, surface) || is_so_anyway(**id)).map(|(id, _)| *id).collect();
     loop {
         let before = graded.len();
         for curve in document.curves.keys() {
@@ -55,7 +62,8 @@ pub(crate) fn graded(model: &Model) -> BTreeSet<SurfaceId> {
 
 /// Brings the wanted lengths of all surfaces up to their shapes.
 pub(crate) fn update(model: &mut Model, bound: &BTreeMap<SurfaceId, BoundSurface>) {
-    let graded = graded(model);
+    let ends_inside = |id| model.surfaces.get(&id).is_some_and(|shape| ends::has_any(model, shape));
+    let graded = graded_and(model, ends_inside);
     for (_, shape) in
         model.surfaces.iter_mut().filter(|(id, shape)| !graded.contains(id) && !shape.wanted.is_empty())
     {
@@ -66,10 +74,12 @@ pub(crate) fn update(model: &mut Model, bound: &BTreeMap<SurfaceId, BoundSurface
         if let (Some(shape), Some(surface)) = (model.surfaces.get(id), model.document.surfaces.get(id)) {
             let mut field = own(shape, surface, 1.0);
             relief::shorten(&mut field, model, shape, surface);
+            let around_ends = ends::longest(&field, model, shape);
             let bound = bound.get(id).filter(|bound| bound.revision == shape.revision);
             if let (Density::Curvature, Some(bound)) = (model.document.density_of_surface(*id), bound) {
                 bend::shorten(&mut field, bound);
             }
+            field.iter_mut().zip(around_ends).for_each(|(h, end)| *h = h.min(end));
             fields.insert(*id, field);
         }
     }
