@@ -7,6 +7,9 @@
 //! misfit instead; a price leaves some of it.) A plain hinge and a clamp whose tangent is free have the same energy:
 //! two springs in a row. The second asks nothing: the curvature at a single point carries no part of `∫ κ² ds`, so that
 //! any quadratic form is met at no cost as the samples grow dense. Two curves always agree on the first and have no hub.
+//!
+//! Where a surface that does not follow the curves ends at a hub, the plane is that surface's: it is held, and a single curve has
+//! a hub too.
 
 use glam::DVec3;
 
@@ -35,6 +38,8 @@ pub(super) struct Hub {
     pub(super) ribs: Vec<Rib>,
     /// Unit normal.
     pub(super) normal: DVec3,
+    /// Whether the plane is prescribed: then it does not tilt.
+    pub(super) is_held: bool,
 }
 
 impl Hub {
@@ -43,6 +48,10 @@ impl Hub {
     pub(super) fn align(&mut self, chords: impl Iterator<Item = DVec3>) {
         for (rib, chord) in self.ribs.iter_mut().zip(chords).filter(|(rib, _)| !rib.is_given) {
             rib.tangent = chord.try_normalize().unwrap_or(DVec3::X);
+        }
+        if self.is_held {
+            self.flatten();
+            return;
         }
         let mut spread: Matrix5<f64> = [[0.0; 5]; 5];
         let is_decided = self.is_decided();
@@ -66,6 +75,7 @@ impl Hub {
     /// The directions in which the normal may tilt: two, but the plane stays on a prescribed tangent.
     pub(super) fn tilts(&self) -> Vec<DVec3> {
         match self.given().next() {
+            _ if self.is_held => Vec::new(),
             None => {
                 let one = self.normal.any_orthonormal_vector();
                 vec![one, self.normal.cross(one)]
@@ -90,6 +100,14 @@ impl Hub {
             rib.tangent += *turn * scale;
         }
         turned.flatten();
+        turned
+    }
+
+    /// Prescribes another plane by its unit normal, where one is prescribed; returns the angle by which that turns it.
+    pub(super) fn hold(&mut self, normal: DVec3) -> f64 {
+        let turned = libm::atan2(self.normal.cross(normal).length(), self.normal.dot(normal).abs());
+        self.normal = normal;
+        self.flatten();
         turned
     }
 

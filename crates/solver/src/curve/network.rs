@@ -41,6 +41,8 @@ pub struct Strand<'a> {
 #[derive(Clone, Debug, Default)]
 pub struct Network {
     hubs: Vec<Hub>,
+    /// Which of the hubs that were asked for each one is.
+    places: Vec<usize>,
     is_laid: bool,
     damping: f64,
     quiet_steps: u32,
@@ -68,11 +70,22 @@ impl Network {
     /// # Errors
     /// [`SolverError::TooManySpokes`].
     pub fn new(hubs: &[Vec<Spoke>]) -> Result<Self, SolverError> {
+        let free: Vec<(Vec<Spoke>, Option<DVec3>)> =
+            hubs.iter().map(|spokes| (spokes.clone(), None)).collect();
+        Self::with_planes(&free)
+    }
+
+    /// The same, where planes of hubs may be prescribed by their normals, of any length but zero: then a single spoke makes a hub.
+    ///
+    /// # Errors
+    /// [`SolverError::TooManySpokes`].
+    pub fn with_planes(hubs: &[(Vec<Spoke>, Option<DVec3>)]) -> Result<Self, SolverError> {
         let mut taken = std::collections::BTreeSet::new();
         let mut network = Self { damping: 1.0, ..Self::default() };
-        for spokes in hubs {
+        for (place, (spokes, plane)) in hubs.iter().enumerate() {
             let free: Vec<Spoke> = spokes.iter().copied().filter(|spoke| !taken.contains(spoke)).collect();
-            if free.len() < 3 {
+            let plane = plane.and_then(DVec3::try_normalize);
+            if free.len() < if plane.is_some() { 1 } else { 3 } {
                 continue;
             }
             taken.extend(free.iter().copied());
@@ -82,12 +95,27 @@ impl Network {
                 tangent: DVec3::X,
                 is_given: false,
             };
-            network.hubs.push(Hub { ribs: free.iter().map(rib).collect(), normal: DVec3::Z });
+            let ribs = free.iter().map(rib).collect();
+            let normal = plane.unwrap_or(DVec3::Z);
+            network.hubs.push(Hub { ribs, normal, is_held: plane.is_some() });
+            network.places.push(place);
         }
         if taken.len() > MOST_SPOKES {
             return Err(SolverError::TooManySpokes(taken.len()));
         }
         Ok(network)
+    }
+
+    /// Prescribes the planes of hubs anew, in the order in which they were asked for; only of those that were prescribed before.
+    /// Returns the largest angle by which that turns one, in radians.
+    pub fn set_planes(&mut self, planes: &[Option<DVec3>]) -> f64 {
+        let mut most = 0.0_f64;
+        for (hub, place) in self.hubs.iter_mut().zip(&self.places).filter(|(hub, _)| hub.is_held) {
+            if let Some(normal) = planes.get(*place).copied().flatten().and_then(DVec3::try_normalize) {
+                most = most.max(hub.hold(normal));
+            }
+        }
+        most
     }
 
     /// The unit normals of the hubs' planes.

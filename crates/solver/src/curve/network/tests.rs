@@ -209,6 +209,32 @@ fn a_prescribed_tangent_holds_the_plane_and_two_decide_it() {
     }
 }
 
+#[test]
+fn a_prescribed_plane_holds_any_number_of_curves_and_may_turn() {
+    for settings in [CurveSettings::default(), fair()] {
+        for count in 1..=3 {
+            let mut web = tripod(41, settings);
+            web.curves.truncate(count);
+            web.settle_alone();
+            let spokes: Vec<Spoke> = (0..count).map(|curve| Spoke { curve, node: 20 }).collect();
+            let wanted = DVec3::new(0.3, -0.2, 2.0);
+            web.network = Network::with_planes(&[(Vec::new(), None), (spokes, Some(wanted))]).unwrap();
+            web.relax(60);
+            let off = |web: &Web, normal: DVec3| {
+                let tangents = web.curves.iter().map(|(solver, _)| solver.tangents()[20]);
+                tangents.map(|tangent| tangent.dot(unit(normal)).abs()).fold(0.0, f64::max)
+            };
+            assert!(off(&web, wanted) < 1e-12, "{}", off(&web, wanted));
+            let other = DVec3::new(-0.3, 0.4, 1.0);
+            let turned = web.network.set_planes(&[Some(DVec3::X), Some(other)]);
+            assert!((turned - unit(wanted).angle_between(unit(other))).abs() < 1e-12, "{turned}");
+            assert!(web.network.set_planes(&[None, Some(-other)]) < 1e-12, "either sense is the same plane");
+            web.relax(60);
+            assert!(off(&web, other) < 1e-12, "{}", off(&web, other));
+        }
+    }
+}
+
 /// The derivative along a direction, hubs and all, against central differences.
 #[test]
 fn slope_of_a_direction_is_that_of_the_energy() {
