@@ -7,10 +7,12 @@
 //! result fits together and no later step spoils what an earlier one has met:
 //!
 //! ```text
-//! least  Σ over planes (W(u) · n)² + ε Σ over points |row1 - default|²,    ends of each row 1 on the neighbours' curves
+//! least  Σ over planes (W(u) · n)² + μ (W(u) · b - w)² + ε Σ over points |row1 - default|²,    ends of each row 1 on the neighbours' curves
 //! ```
 //!
-//! `ε` is so small that it only decides what the planes leave open.
+//! Here `b` is across the curve in the plane, and `w` how far the default reaches across: turned into the plane, it keeps its length.
+//! Without that a cross derivative could meet any plane by vanishing. `μ` and, far more so, `ε` are so small that they only decide
+//! what the planes leave open.
 
 use super::{PAIRS, Ribbon, RibbonError, RibbonLoop};
 use crate::basis;
@@ -18,6 +20,8 @@ use crate::bezier::elevated;
 use ductile_solver::SymmetricFactor;
 use glam::DVec3;
 
+/// What the length across the curve weighs beside the planes.
+const REACH_WEIGHT: f64 = 1e-6;
 /// What the default weighs beside the planes.
 const DEFAULT_WEIGHT: f64 = 1e-9;
 
@@ -122,24 +126,33 @@ fn meet(ribbons: &mut [Ribbon], planes: &[PlaneSample]) {
     for plane in planes.iter().filter(|plane| plane.is_for(sides)) {
         let Some(normal) = plane.normal.try_normalize() else { continue };
         let (ribbon, weights) = (&ribbons[plane.side], basis(d, plane.u));
-        // Σ b_j (row1_j - row0_j) · n = 0, with what is fixed on the right.
-        let mut known = 0.0;
-        let mut free: Vec<(usize, f64)> = Vec::new();
-        for (column, &weight) in weights.iter().enumerate() {
-            known += weight * (ribbon.row0[column] - origin).dot(normal);
-            match unknown(sides, d, plane.side, column) {
-                Some(slot) => free.push((slot, weight)),
-                None => known -= weight * (ribbon.row1[column] - origin).dot(normal),
+        let along = ribbon.tangent(plane.u).normalize_or_zero();
+        let leg: DVec3 =
+            weights.iter().zip(ribbon.row1.iter().zip(&ribbon.row0)).map(|(w, (a, b))| (*a - *b) * *w).sum();
+        let across = leg - along * along.dot(leg);
+        let within = normal.cross(along).normalize_or_zero();
+        let reach = if within.dot(across) < 0.0 { -across.length() } else { across.length() };
+        for (direction, value, share) in [(normal, 0.0, 1.0), (within, reach, REACH_WEIGHT)] {
+            // Σ b_j (row1_j - row0_j) · direction = value, with what is fixed on the right.
+            let mut known = value;
+            let mut free: Vec<(usize, f64)> = Vec::new();
+            for (column, &weight) in weights.iter().enumerate() {
+                known += weight * (ribbon.row0[column] - origin).dot(direction);
+                match unknown(sides, d, plane.side, column) {
+                    Some(slot) => free.push((slot, weight)),
+                    None => known -= weight * (ribbon.row1[column] - origin).dot(direction),
+                }
             }
-        }
-        let n = normal.to_array();
-        for &(row, weight) in &free {
-            for i in 0..3 {
-                right[3 * row + i] += weight * n[i] * known;
-                for &(column, other) in &free {
-                    for j in 0..3 {
-                        if 3 * column + j <= 3 * row + i {
-                            entries.push((3 * row + i, 3 * column + j, weight * n[i] * other * n[j]));
+            let n = direction.to_array();
+            for &(row, weight) in &free {
+                for i in 0..3 {
+                    let own = share * weight * n[i];
+                    right[3 * row + i] += own * known;
+                    for &(column, other) in &free {
+                        for j in 0..3 {
+                            if 3 * column + j <= 3 * row + i {
+                                entries.push((3 * row + i, 3 * column + j, own * other * n[j]));
+                            }
                         }
                     }
                 }
@@ -213,6 +226,35 @@ mod tests {
                 before = worst;
             }
             assert!(before < 1e-6, "{n}: {before:e}");
+        }
+    }
+
+    /// Planes that lean by more and more towards the middle of the sides, up to an angle from the sphere's.
+    #[test]
+    fn a_ribbon_turned_into_its_planes_keeps_its_reach() {
+        let (curves, planes) = hole(4, 5, DVec3::ZERO);
+        let plain = ribbons_along(&curves, &planes).unwrap().ribbons;
+        for most in [0.3, 0.6, 0.9] {
+            let leaning: Vec<PlaneSample> = planes
+                .iter()
+                .map(|plane| {
+                    let along = plain.ribbons[plane.side].tangent(plane.u).normalize();
+                    let (sin, cos) = libm::sincos(most * 4.0 * plane.u * (1.0 - plane.u));
+                    PlaneSample { normal: plane.normal * cos + along.cross(plane.normal) * sin, ..*plane }
+                })
+                .collect();
+            let found = ribbons_along(&curves, &leaning).unwrap();
+            assert!(found.angles.iter().all(|angle| *angle < 0.02), "{most}: {:?}", found.angles);
+            for (side, ribbon) in found.ribbons.ribbons().iter().enumerate() {
+                for u in [0.25, 0.5, 0.75] {
+                    let across = |ribbon: &Ribbon| {
+                        let along = ribbon.tangent(u).normalize();
+                        (ribbon.cross(u) - along * along.dot(ribbon.cross(u))).length()
+                    };
+                    let share = across(ribbon) / across(&plain.ribbons()[side]);
+                    assert!((0.8..1.25).contains(&share), "{most}, side {side} at {u}: {share}");
+                }
+            }
         }
     }
 
