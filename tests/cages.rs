@@ -25,7 +25,7 @@ fn request(dice: &mut Dice, model: &Model) -> Request {
     let [first, second] =
         if corners.is_empty() { [one, other] } else { [0; 2].map(|_| corners[dice.below(corners.len())]) };
     let (ends, face) = ([first, second], u32::try_from(face).unwrap());
-    match dice.below(24) {
+    match dice.below(27) {
         0 => {
             let form = CageForm::ALL[dice.below(CageForm::ALL.len())];
             let from = CageSource::BuiltIn { form, centre: dice.vector(), size: 0.2 + dice.unit() };
@@ -51,6 +51,15 @@ fn request(dice: &mut Dice, model: &Model) -> Request {
         17 => Request::Grab(GrabTarget::Edge { surface, ends, at: dice.vector() }),
         18..=19 => Request::Step(Step { drag: Some(dice.vector()), iterations: 5 }),
         20..=21 => Request::Drop,
+        24 => Request::Edit(Edit::Rim { surface, ends, between: None }),
+        25..=26 => {
+            // An edge at which the cage ends, if there is one.
+            let rim = model.document.cages.get(&surface).map(|cage| cage.rim()).unwrap_or_default();
+            let edges: Vec<[PointId; 2]> = rim.iter().map(|(from, edge)| [*from, edge.to]).collect();
+            let edge = dice.pick(&edges).unwrap_or(ends);
+            let between = dice.coin().then(|| [dice.pick(&edges).map_or(one, |edge| edge[0]), edge[1]]);
+            Request::Edit(Edit::Rim { surface, ends: edge, between })
+        }
         22 if dice.coin() => Request::Redo,
         22 => Request::Undo,
         _ if dice.below(8) == 0 => Request::Edit(Edit::DeleteSurface { surface }),

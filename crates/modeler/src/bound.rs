@@ -1,5 +1,6 @@
 //! A solver bound to one shape and one revision of it: the bridge between mesh handles and compact nodes.
 
+use crate::bank;
 use crate::error::ModelError;
 use crate::model::Model;
 use crate::plane::Planes;
@@ -126,7 +127,8 @@ impl BoundSurface {
     /// Takes over the tangent planes that the document prescribes; returns whether they are noticeably others than before.
     pub(crate) fn prescribe(&mut self, model: &Model, id: SurfaceId, shape: &SurfaceShape) -> bool {
         let surface = model.document.surfaces.get(&id);
-        let has_planes = surface.is_some_and(|s| !(s.normals.is_empty() && s.ribbons.is_empty()));
+        let has_planes = surface.is_some_and(|s| !(s.normals.is_empty() && s.ribbons.is_empty()))
+            || bank::is_taken_from(model, id);
         if has_planes && self.solver.energy().is_nan() {
             // Which sense a normal is meant in, the surface says as it is.
             self.solver.fit_all(&self.positions);

@@ -1,6 +1,7 @@
 //! Why the modeler refuses: typed, with the offending thing in the message, in words for the designer.
 
 mod overlay;
+mod rim;
 mod trim;
 
 use crate::patch::FillError;
@@ -17,6 +18,7 @@ use thiserror::Error;
 
 pub(crate) use overlay::ShadowError;
 use overlay::displaced;
+pub(crate) use rim::RimError;
 pub use trim::TrimError;
 
 /// Why a request was refused. The model is as it was before.
@@ -31,6 +33,21 @@ pub enum ModelError {
     /// The act would make a document that cannot be built.
     #[error(transparent)]
     Defect(#[from] Defect),
+    /// A curve is no rim of a cage, or is one.
+    #[error(transparent)]
+    Rim(#[from] RimError),
+    /// Join one of the two by position only, then bake.
+    #[error(
+        "{other} joins {surface} smoothly along {curve} and would move: let one of them join by position first"
+    )]
+    JoinedSmoothly {
+        /// The fill.
+        surface: SurfaceId,
+        /// The other fill.
+        other: SurfaceId,
+        /// Along which curve.
+        curve: CurveId,
+    },
     /// The triangles of a skeleton do not form a surface.
     #[error("{surface} is not a surface: {reason}")]
     NotASurface {

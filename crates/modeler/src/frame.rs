@@ -1,6 +1,7 @@
 //! What is drawn: the model in the layout of `ductile-spec`'s frame. This is the only place where f64
 //! becomes f32.
 
+use crate::bank;
 use crate::displaced::{Displacer, Overlay};
 use crate::model::Model;
 use crate::region;
@@ -46,7 +47,7 @@ impl Frame {
                 continue;
             }
             let Some(bound) = relaxer.surface(*id, shape) else { continue };
-            for (vertex, normal) in bound.vertices().iter().zip(bound.normals()) {
+            for (vertex, normal) in bound.vertices().iter().zip(bank::shown(model, bound, shape).iter()) {
                 push(&mut self.floats, shape.positions[vertex.index()]);
                 push(&mut self.floats, *normal);
             }

@@ -5,6 +5,7 @@
 //! that every act is either done whole or refused with the model as it was. The same modeler runs in the
 //! worker, in the command line and in the tests; it has no clock and no randomness.
 
+mod bank;
 mod bound;
 mod density;
 mod displaced;

@@ -39,6 +39,10 @@ pub(crate) fn curve(model: &mut Model, id: CurveId) -> bool {
         let most = if matches!(density::along(model, id), Along::Graded(_)) { 1 + count / 8 } else { 1 };
         changed |= (0..most).take_while(|_| resample_stretch(model, id, rank)).count() > 0;
     }
+    if model.document.curves.get(&id).is_some_and(|curve| curve.rim.is_some()) {
+        // Its samples are spread by the parameter of the rim, and go to their places in the next step.
+        return changed;
+    }
     let along = density::along(model, id);
     if let Some(shape) = model.curves.get_mut(&id)
         && is_uneven(shape, &along)

@@ -3,6 +3,7 @@
 mod displacing;
 mod settling;
 
+use crate::bank;
 use crate::displaced::{Displacer, Footprints};
 use crate::error::ModelError;
 use crate::example::example;
@@ -415,7 +416,7 @@ impl Modeler {
                 continue;
             }
             positions.extend(bound.vertices().iter().map(|v| shape.positions[v.index()]));
-            normals.extend_from_slice(bound.normals());
+            normals.extend_from_slice(&bank::shown(&self.model, bound, shape));
         }
         for (id, shape) in &self.model.patches {
             let first = u32::try_from(positions.len()).unwrap_or(u32::MAX);

@@ -11,9 +11,10 @@
 //! What cannot be is not asked for: of a normal at a point of a curve only what is across the curve counts, and where two
 //! curves cross, their tangents are the plane already.
 
+use crate::bank;
 use crate::error::ModelError;
 use crate::model::Model;
-use crate::patch::PatchRim;
+use crate::patch::{Led, PatchRim};
 use crate::shape::{CurveShape, EmbeddedCurve, SurfaceShape};
 use ductile_mesh::VertexId;
 use ductile_solver::Rings;
@@ -47,8 +48,16 @@ impl Planes<'_> {
             let (Some(embedded), Some(shape)) = (embedded, self.model.curves.get(curve)) else { continue };
             let crosses = match ribbon.onto.and_then(|other| self.model.patches.get(&other)) {
                 Some(patch) => {
-                    let rim = PatchRim::new(patch);
-                    shape.nodes.iter().map(|at| rim.away(*at)).collect()
+                    match Led::of(self.model, *curve).filter(|led| ribbon.onto == Some(led.surface)) {
+                        Some(led) => {
+                            let away = |sample| Some(led.on_sampling(shape, sample, 0.0)?.away);
+                            (0..shape.nodes.len()).map(away).collect()
+                        }
+                        None => {
+                            let rim = PatchRim::new(patch);
+                            shape.nodes.iter().map(|at| rim.away(*at)).collect()
+                        }
+                    }
                 }
                 None => crosses(&self.model.document, *curve, shape, ribbon),
             };
@@ -63,7 +72,14 @@ impl Planes<'_> {
                 planes.insert(node, normal);
             }
         }
-        planes.into_iter().filter(|(node, _)| !crossings.contains(node)).collect()
+        planes.retain(|node, _| !crossings.contains(node));
+        // What a fill takes planes from is smooth at its corners only in the plane of both curves.
+        for (v, normal) in bank::corners(self.model, id, self.shape) {
+            let node = self.node(v);
+            let now = self.normals.get(node as usize).copied().unwrap_or_default();
+            planes.insert(node, if normal.dot(now) < 0.0 { -normal } else { normal });
+        }
+        planes.into_iter().collect()
     }
 
     fn node(&self, v: VertexId) -> u32 {

@@ -7,6 +7,7 @@ use crate::density::{self, Along};
 use crate::error::ModelError;
 use crate::maintain::{self, FEWEST_EDGES};
 use crate::model::{Model, NODE_BUDGET};
+use crate::patch::led_nodes;
 use crate::shape::{CurveShape, EmbeddedCurve, Pin, SurfaceShape};
 use ductile_mesh::{Mesh, SourceTag, VertexId, measure, propagate_orientation, remesh};
 use ductile_spec::{CurveId, Document, Embedding, PointId, Skeleton, SkeletonVertex, Surface, SurfaceId};
@@ -46,6 +47,10 @@ pub(crate) fn build_curve(
     if !curve.closed {
         shape.controls.push((count_u32(shape.nodes.len()), curve.through[count - 1]));
         shape.nodes.push(corners[count - 1]);
+    }
+    if let Some(nodes) = led_nodes(document, id, &shape)? {
+        shape.nodes = nodes;
+        return Ok(shape);
     }
     let mut bound = BoundCurve::new(document, id, &shape)?;
     for round in 0..CURVE_STEPS {

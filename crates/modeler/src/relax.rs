@@ -6,6 +6,7 @@ use crate::density;
 use crate::maintain::{self, Upkeep};
 use crate::model::Model;
 use crate::network::Networks;
+use crate::patch::{Led, fill};
 use crate::settle;
 use crate::shape::{CurveShape, GROWN, SurfaceShape, edit};
 use ductile_solver::Budget;
@@ -248,7 +249,8 @@ impl Relaxer {
 
     /// Steps the curves that have to agree where they meet; returns which those are.
     fn step_networks(&mut self, model: &mut Model) -> BTreeSet<CurveId> {
-        let refused = self.networks.bind(model);
+        let leads = fill::held(model, Some(self));
+        let refused = self.networks.bind(model, &leads);
         self.rescues = self.rescues.saturating_add(refused);
         let rests = |id: CurveId| self.curves_at_rest.get(&id) == Some(&true);
         let mut together = BTreeSet::new();
@@ -261,6 +263,14 @@ impl Relaxer {
     }
 
     fn step_curve(&mut self, model: &mut Model, id: CurveId) {
+        if let (Some(led), Some(shape)) = (Led::of(model, id), model.curves.get(&id)) {
+            let nodes = led.nodes(&model.document, shape).filter(|nodes| *nodes != shape.nodes);
+            self.curves_at_rest.insert(id, nodes.is_none());
+            if let (Some(nodes), Some(shape)) = (nodes, model.curves.get_mut(&id).map(edit::<CurveShape>)) {
+                shape.nodes = nodes;
+            }
+            return;
+        }
         let (Some(bound), Some(shape)) = (self.curves.get_mut(&id), model.curves.get(&id)) else { return };
         let motion = BoundCurve::motion(model, shape);
         if motion.is_empty() && self.curves_at_rest.get(&id) == Some(&true) {

@@ -1,14 +1,19 @@
 //! How well surfaces meet along the curves that they share: every pair of surfaces of whatever kind that end at, or run through, the
 //! same stretch, compared at the samples of the curve.
+//!
+//! Of the rim of a surface over a cage or of a mesh that no curve follows to the bit, what is known is the tessellation: place and normal
+//! of the nearest place at its rim. Curvatures are not compared there.
 
+use crate::bank;
 use crate::model::Model;
 use crate::patch::fill::{self, Drawn, Side};
+use crate::patch::{Led, PatchRim};
 use crate::relax::Relaxer;
 use ductile_patch::s_patch::Domain;
 use ductile_patch::{Seam, SurfacePoint, seam};
-use ductile_spec::{CurveStretch, SeamFigures, Seams, SurfaceId};
+use ductile_spec::{CurveId, CurveStretch, SeamFigures, Seams, SurfaceId};
 use glam::DVec3;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A surface along a stretch.
 #[derive(Clone, Copy)]
@@ -17,12 +22,16 @@ enum Bank<'a> {
     Fair(SurfaceId, usize),
     /// A fill, by the number of its side.
     Fill(SurfaceId, usize, &'a Side),
+    /// A surface over a cage whose rim leads the curve.
+    Led(SurfaceId, &'a Led<'a>),
+    /// An exact surface that another one goes on from there, at its rim.
+    Rim(SurfaceId, &'a PatchRim<'a>),
 }
 
 impl Bank<'_> {
     fn surface(&self) -> SurfaceId {
         match self {
-            Self::Fair(id, _) | Self::Fill(id, ..) => *id,
+            Self::Fair(id, _) | Self::Fill(id, ..) | Self::Led(id, _) | Self::Rim(id, _) => *id,
         }
     }
 }
@@ -35,17 +44,29 @@ pub(crate) fn seams(model: &Model, relaxer: &Relaxer) -> Seams {
             banks.entry(side.drawn.stretch).or_default().push(Bank::Fill(*id, at, side));
         }
     }
-    let stretches: Vec<CurveStretch> = banks.keys().copied().collect();
+    let of_fills: Vec<CurveStretch> = banks.keys().copied().collect();
     for (id, shape) in &model.surfaces {
         for (place, embedded) in shape.embeddings.iter().enumerate() {
-            let Some(curve) = model.document.curves.get(&embedded.curve) else { continue };
-            let (Some(first), Some(last)) = (curve.through.first(), curve.through.last()) else { continue };
-            let to = if curve.closed { *first } else { *last };
-            let whole = CurveStretch { curve: embedded.curve, from: *first, to };
-            let of_fills = stretches.iter().filter(|stretch| stretch.curve == embedded.curve);
-            for stretch in of_fills.copied().chain((!stretches.contains(&whole)).then_some(whole)) {
+            for stretch in stretches(model, &of_fills, embedded.curve) {
                 banks.entry(stretch).or_default().push(Bank::Fair(*id, place));
             }
+        }
+    }
+    let led: Vec<(CurveId, Led<'_>)> =
+        model.document.curves.keys().filter_map(|id| Some((*id, Led::of(model, *id)?))).collect();
+    for (curve, led) in &led {
+        for stretch in stretches(model, &of_fills, *curve) {
+            banks.entry(stretch).or_default().push(Bank::Led(led.surface, led));
+        }
+    }
+    let rims: BTreeMap<SurfaceId, PatchRim<'_>> = gone_on_from(model)
+        .into_iter()
+        .filter_map(|(surface, _)| Some((surface, PatchRim::new(model.patches.get(&surface)?))))
+        .collect();
+    for (surface, curve) in gone_on_from(model) {
+        let Some(rim) = rims.get(&surface) else { continue };
+        for stretch in stretches(model, &of_fills, curve) {
+            banks.entry(stretch).or_default().push(Bank::Rim(surface, rim));
         }
     }
     let mut found = Vec::new();
@@ -59,6 +80,31 @@ pub(crate) fn seams(model: &Model, relaxer: &Relaxer) -> Seams {
     let fills = model.document.fills.keys();
     let fills = fills.filter_map(|id| Some(fill::shape(model, *id)?.figures(*id))).collect();
     Seams { seams: found, fills }
+}
+
+/// The stretches of a curve that are compared: those of fills, and the whole curve.
+fn stretches(model: &Model, of_fills: &[CurveStretch], id: CurveId) -> Vec<CurveStretch> {
+    let Some(curve) = model.document.curves.get(&id) else { return Vec::new() };
+    let (Some(first), Some(last)) = (curve.through.first(), curve.through.last()) else { return Vec::new() };
+    let whole = CurveStretch { curve: id, from: *first, to: if curve.closed { *first } else { *last } };
+    let of_fills = of_fills.iter().filter(|stretch| stretch.curve == id).copied();
+    of_fills.clone().chain((!of_fills.clone().any(|stretch| stretch == whole)).then_some(whole)).collect()
+}
+
+/// The surfaces over cages and meshes from whose rims others go on, with the curves along which they do, if these are not led.
+fn gone_on_from(model: &Model) -> BTreeSet<(SurfaceId, CurveId)> {
+    let document = &model.document;
+    let ribbons = document.surfaces.values().flat_map(|surface| &surface.ribbons);
+    let of_fair = ribbons.filter_map(|(curve, ribbon)| Some((ribbon.onto?, *curve)));
+    let sides = document.fills.values().flat_map(|fill| &fill.sides);
+    let of_fills = sides.filter_map(|side| Some((side.planes?, side.curve)));
+    of_fair
+        .chain(of_fills)
+        .filter(|(surface, _)| document.cages.contains_key(surface) || document.meshes.contains_key(surface))
+        .filter(|(surface, curve)| {
+            document.curves.get(curve).is_some_and(|curve| curve.rim != Some(*surface))
+        })
+        .collect()
 }
 
 fn compared(
@@ -77,14 +123,21 @@ fn compared(
         (false, _) => last.checked_sub(first)?,
     };
     // A long edge of a curve has more to say than its two ends.
-    let steps = if matches!((one, other), (Bank::Fill(..), Bank::Fill(..))) { 4 } else { 1 };
+    let is_known_between = |bank: &Bank<'_>| matches!(bank, Bank::Fill(..) | Bank::Led(..));
+    let steps = if [one, other].iter().all(is_known_between) { 4 } else { 1 };
     let places: Vec<(usize, f64)> =
         (0..=edges * steps).map(|k| (k / steps, (k % steps) as f64 / steps as f64)).collect();
     let points = |bank: Bank<'_>| -> Option<Vec<SurfacePoint>> {
-        places.iter().map(|(edge, t)| point(model, relaxer, bank, (first, *edge, *t))).collect()
+        places
+            .iter()
+            .map(|(edge, t)| point(model, relaxer, bank, (stretch.curve, first, *edge, *t)))
+            .collect()
     };
-    let Seam { gap, angle, curvature_jump, without_normal, without_curvature, .. } =
-        seam(&points(one)?, &points(other)?)?;
+    let mut found = seam(&points(one)?, &points(other)?)?;
+    if [one, other].iter().any(|bank| matches!(bank, Bank::Rim(..))) {
+        (found.curvature_jump, found.without_curvature) = (0.0, places.len());
+    }
+    let Seam { gap, angle, curvature_jump, without_normal, without_curvature, .. } = found;
     Some(SeamFigures {
         stretch,
         surfaces: [one.surface(), other.surface()],
@@ -102,7 +155,7 @@ fn point(
     model: &Model,
     relaxer: &Relaxer,
     bank: Bank<'_>,
-    (first, edge, t): (usize, usize, f64),
+    (curve, first, edge, t): (CurveId, usize, usize, f64),
 ) -> Option<SurfacePoint> {
     match bank {
         Bank::Fair(id, place) => {
@@ -111,7 +164,9 @@ fn point(
             let vertices = &shape.embeddings.get(place)?.vertices;
             let vertex = vertices.get((first + edge) % vertices.len())?;
             let node = bound.node(*vertex) as usize;
-            let (normal, mean) = (*bound.normals().get(node)?, bound.mean_curvature(node)?);
+            let mean = bound.mean_curvature(node)?;
+            let sample = (first + edge) % vertices.len();
+            let normal = *bank::along(model, bound, shape.embeddings.get(place)?).get(sample)?;
             Some(osculating(*shape.positions.get(vertex.index())?, normal, mean))
         }
         Bank::Fill(id, at, side) => {
@@ -125,11 +180,20 @@ fn point(
             let u = side.parameter(low + (high - low) * t);
             built.patch.at(&domain, domain.on_side(at, u))
         }
+        Bank::Led(_, led) => {
+            let drawn = model.curves.get(&curve)?;
+            Some(led.on_sampling(drawn, (first + edge) % drawn.nodes.len(), t)?.surface)
+        }
+        Bank::Rim(_, rim) => {
+            let drawn = model.curves.get(&curve)?;
+            let at = *drawn.nodes.get((first + edge) % drawn.nodes.len())?;
+            Some(osculating(rim.place(at)?, rim.normal(at)?, 0.0))
+        }
     }
 }
 
 /// A point of a surface of which normal and mean curvature are known: seams ask for no more.
-fn osculating(point: DVec3, normal: DVec3, mean: f64) -> SurfacePoint {
+pub(crate) fn osculating(point: DVec3, normal: DVec3, mean: f64) -> SurfacePoint {
     let dx = normal.any_orthonormal_vector();
     let bent = normal * mean;
     SurfacePoint { point, dx, dy: normal.cross(dx), dxx: bent, dxy: DVec3::ZERO, dyy: bent }

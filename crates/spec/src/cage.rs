@@ -3,7 +3,7 @@
 
 use crate::id::PointId;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Most steps along an edge of a quad that a document may ask for.
 pub const MAX_CAGE_RESOLUTION: u32 = 64;
@@ -47,6 +47,19 @@ pub struct CageSettings {
     /// Steps along every edge of a quad, 1 to 64; left open: what suits the number of faces.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub resolution: Option<u32>,
+}
+
+/// An edge of the rim of a cage.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RimEdge {
+    /// The vertex where it ends.
+    pub to: PointId,
+    /// The only face that has it, from 0.
+    pub face: usize,
+    /// The corner of that face where it begins, from 0.
+    pub corner: usize,
+    /// Whether the rim of the surface turns where it begins: a single face meets there.
+    pub turns: bool,
 }
 
 /// How the faces of a cage become quads.
@@ -134,6 +147,30 @@ impl Cage {
             face.iter().zip(next).map(|(a, b)| [*a.min(b), *a.max(b)]).collect::<Vec<_>>()
         };
         self.faces.iter().flat_map(of_face).collect()
+    }
+
+    /// The edges at which it ends, by the vertex where each begins, with the cage on their left.
+    #[must_use]
+    pub fn rim(&self) -> BTreeMap<PointId, RimEdge> {
+        let mut faces: BTreeMap<[PointId; 2], usize> = BTreeMap::new();
+        let corners =
+            |face: &Vec<PointId>| (0..face.len()).map(|k| [face[k], face[(k + 1) % face.len()]]).collect();
+        let sides: Vec<Vec<[PointId; 2]>> = self.faces.iter().map(corners).collect();
+        for [a, b] in sides.iter().flatten() {
+            *faces.entry([*a.min(b), *a.max(b)]).or_default() += 1;
+        }
+        let mut at: BTreeMap<PointId, usize> = BTreeMap::new();
+        self.faces.iter().flatten().for_each(|point| *at.entry(*point).or_default() += 1);
+        let mut rim = BTreeMap::new();
+        for (face, sides) in sides.iter().enumerate() {
+            for (corner, [from, to]) in sides.iter().enumerate() {
+                if faces.get(&[*from.min(to), *from.max(to)]) == Some(&1) {
+                    let turns = at.get(from) == Some(&1);
+                    rim.insert(*from, RimEdge { to: *to, face, corner, turns });
+                }
+            }
+        }
+        rim
     }
 
     /// How its faces become quads.

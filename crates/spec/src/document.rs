@@ -124,6 +124,10 @@ pub struct Curve {
     /// The direction in which it passes through some of its points, in its own sense. Any length but zero means the same.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty", deserialize_with = "crate::text::unique")]
     pub tangents: BTreeMap<PointId, DVec3>,
+    /// The surface over a cage whose rim it is, from vertex to vertex of the cage: then it is no fair curve, but goes where that rim
+    /// goes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rim: Option<SurfaceId>,
 }
 
 /// A fair surface under its controls.
@@ -252,7 +256,7 @@ impl Curve {
     /// A curve through these points, without choices of its own.
     #[must_use]
     pub fn new(through: Vec<PointId>, closed: bool) -> Self {
-        Self { through, closed, objective: None, tangents: BTreeMap::new() }
+        Self { through, closed, objective: None, tangents: BTreeMap::new(), rim: None }
     }
 }
 

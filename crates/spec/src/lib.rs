@@ -15,6 +15,7 @@ mod example;
 mod fill;
 mod fixed_mesh;
 mod frame;
+mod grab;
 mod id;
 mod protocol;
 mod ribbon_file;
@@ -27,7 +28,7 @@ mod validate;
 
 pub use cage::{
     Cage, CageBlend, CageBoundary, CageMap, CageSettings, CageSplit, MAX_BUMP, MAX_CAGE_RESOLUTION,
-    MAX_HERMITE,
+    MAX_HERMITE, RimEdge,
 };
 pub use cage_source::{CageForm, CageSource};
 pub use displacement::{
@@ -38,7 +39,7 @@ pub use document::{
     Curve, Density, Document, Embedding, MAX_COORDINATE, Objective, Region, Ribbon, Side, Skeleton,
     SkeletonVertex, Surface,
 };
-pub use edit::{Edit, GrabTarget, Handle, Leave, ObjectiveOf, SpacingOf, Through};
+pub use edit::{Edit, Leave, ObjectiveOf, SpacingOf, Through};
 pub use example::Example;
 pub use fill::{
     CurveStretch, FILL_RESOLUTION, Fill, FillInterior, FillJoin, FillRibbon, FillSide, FillStyle, Hole,
@@ -49,6 +50,7 @@ pub use frame::{
     PointRole, RegionEntry, Structure, SurfaceKind, SurfaceSpan, SurfaceSummary, VERTEX_FLOATS,
     vertex_layout,
 };
+pub use grab::{GrabTarget, Handle};
 pub use id::{CurveId, PointId, SurfaceId};
 pub use protocol::{
     Committed, ExportFormat, Exported, FoundLoop, Grabbed, ImportAs, ImportFormat, Meeting, MeetingLine,

@@ -4,9 +4,10 @@
 //! drag is coalesced by itself: only the newest target rides on the next step. Each reply carries the
 //! newest frame. A refused request leaves the model as it was.
 
-use crate::edit::{Edit, GrabTarget};
+use crate::edit::Edit;
 use crate::example::Example;
 use crate::frame::{FrameHeader, Structure};
+use crate::grab::GrabTarget;
 use crate::id::{CurveId, PointId, SurfaceId};
 use crate::seams::Seams;
 use glam::DVec3;

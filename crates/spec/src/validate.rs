@@ -11,6 +11,7 @@ use thiserror::Error;
 mod displacement;
 mod exact;
 mod mesh;
+mod rim;
 mod shadow;
 
 /// Limits that keep hostile input from exhausting memory; each is far above what a designer makes.
@@ -89,6 +90,16 @@ pub enum Defect {
         curve: CurveId,
         /// Where it is prescribed.
         point: PointId,
+        /// What is wrong.
+        why: &'static str,
+    },
+    /// A curve is no rim of the surface over a cage that it is said to be one of.
+    #[error("{curve} is no rim of {surface}: {why}")]
+    Rim {
+        /// Which curve.
+        curve: CurveId,
+        /// The surface that should lead it.
+        surface: SurfaceId,
         /// What is wrong.
         why: &'static str,
     },
@@ -313,6 +324,7 @@ impl Document {
             validate_surface(*id, surface, self)?;
         }
         self.validate_exact()?;
+        self.validate_rims()?;
         self.validate_meshes()?;
         self.validate_displacements()
     }

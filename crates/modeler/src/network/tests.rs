@@ -129,7 +129,7 @@ fn curves_that_cross_have_one_tangent_plane_and_the_surface_has_it_too() {
 
 #[test]
 fn two_curves_make_no_hub_nor_do_curves_of_different_surfaces_nor_films() {
-    let count = |document: &Document| hubs(document).len();
+    let count = |document: &Document| hubs(document, &BTreeMap::new()).len();
     let whole = dome(0.2);
     assert_eq!(count(&whole), 1);
     let mut pair = whole.clone();

@@ -1,5 +1,7 @@
 //! `bake`: what is shown of a surface becomes a fixed mesh with the same number. Its curves stay where they are, its control points
-//! go, as far as nothing else uses them. What goes on from it at a rim goes on from the mesh.
+//! go, as far as nothing else uses them. What goes on from it at a rim goes on from the mesh. Two fills that join smoothly hang together,
+//! by the planes on which they agree, and by the curves of both, which lie in one plane at their corners: unless the other one goes on
+//! from it, none of the two is baked alone.
 
 use super::{delete, fill, mesh};
 use crate::displaced::Displacer;
@@ -18,6 +20,9 @@ pub(super) fn bake(
     let is_displaced = displacer.get(id).is_some();
     if is_mesh && !is_displaced {
         return Err(ModelError::NothingToBake(id));
+    }
+    if let Some((other, curve)) = patch::fill::joined(&model.document, id) {
+        return Err(ModelError::JoinedSmoothly { surface: id, other, curve });
     }
     let shown = displacer.shown(model, relaxer, id).filter(|(_, triangles)| !triangles.is_empty());
     let (positions, triangles) = shown.ok_or(ModelError::NothingShown(id))?;

@@ -2,6 +2,7 @@
 
 use crate::error::ModelError;
 use crate::model::Model;
+use crate::operation::rim;
 use crate::patch::caged;
 use ductile_spec::{CageSettings, SurfaceId};
 
@@ -15,6 +16,7 @@ pub(crate) fn choose(
     if let Some(cage) = model.document_mut().cages.get_mut(&surface) {
         cage.settings = settings;
     }
+    rim::free_lost(model.document_mut());
     model.document.validate()?;
     model.build_patch(surface)
 }

@@ -2,7 +2,7 @@
 
 use crate::error::ModelError;
 use crate::model::Model;
-use crate::operation::{forget_unused_points, is_unused, refresh_skeleton, region, release, ribbon};
+use crate::operation::{forget_unused_points, is_unused, refresh_skeleton, region, release, ribbon, rim};
 use crate::shape::{SurfaceShape, edit};
 use ductile_spec::{CurveId, PointId, SkeletonVertex, SurfaceId};
 
@@ -78,6 +78,7 @@ pub(super) fn take_out(model: &mut Model, id: SurfaceId) -> Result<(), ModelErro
     model.document_mut().displacements.remove(&id);
     if let Some(cage) = model.document_mut().cages.remove(&id) {
         model.patches.remove(&id);
+        rim::free_lost(model.document_mut());
         drop_unused(model, cage.points());
         return Ok(());
     }

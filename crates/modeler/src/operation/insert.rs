@@ -4,7 +4,7 @@
 use crate::error::ModelError;
 use crate::model::Model;
 use crate::operation::slide::slide;
-use crate::operation::{kept_position, refresh_skeleton};
+use crate::operation::{kept_position, refresh_skeleton, rim};
 use crate::shadow;
 use crate::shape::{CurveShape, edit};
 use ductile_mesh::SourceTag;
@@ -16,6 +16,7 @@ const ROOM: f64 = 0.25;
 
 /// Makes a control point at the place of a curve nearest to a given one. The shape does not change by it.
 pub(crate) fn insert(model: &mut Model, id: CurveId, at: DVec3) -> Result<PointId, ModelError> {
+    check_free(model, id)?;
     let (sample, place) = make_room(model, id, at)?;
     let point = model.document.next_point();
     model.document_mut().points.insert(point, place);
@@ -34,8 +35,23 @@ pub(crate) fn insert_there(
     if model.document.curves.get(&id).is_some_and(|curve| curve.through.contains(&point)) {
         return Err(ModelError::TwiceThrough(point));
     }
+    check_free(model, id)?;
+    insert_vertex(model, id, at, point)
+}
+
+/// The same for a curve that a rim leads, and a vertex of its cage.
+pub(crate) fn insert_vertex(
+    model: &mut Model,
+    id: CurveId,
+    at: DVec3,
+    point: PointId,
+) -> Result<(), ModelError> {
     let room = make_room(model, id, at)?;
     tie(model, id, room, point)
+}
+
+fn check_free(model: &Model, id: CurveId) -> Result<(), ModelError> {
+    rim::check_free(&model.document, id, "its points are vertices of the cage; split an edge of that")
 }
 
 /// A sample of a curve that is no control yet, for one at a place, and where exactly.

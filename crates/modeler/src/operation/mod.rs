@@ -30,6 +30,7 @@ mod region;
 mod release;
 mod reverse;
 mod ribbon;
+pub(crate) mod rim;
 mod s_loop;
 mod shadow;
 mod sheet;
@@ -59,7 +60,7 @@ use std::sync::Arc;
 pub(crate) use delete::drop_unused;
 pub(crate) use fill::{forget_lost as forget_lost_planes, found_loop, mended};
 pub(crate) use import::import;
-pub(crate) use insert::{insert, insert_there};
+pub(crate) use insert::{insert, insert_there, insert_vertex};
 pub(crate) use pin::pin;
 pub(crate) use ribbon::{forget_lost, kept_direction};
 pub(crate) use shadow::forget_lost as forget_lost_shadows;
@@ -189,7 +190,8 @@ fn act(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result<(), ModelErr
         | Edit::Extrude { .. }
         | Edit::DeleteFace { .. }
         | Edit::SplitEdge { .. }
-        | Edit::SplitFace { .. } => act_on_cage(model, edit),
+        | Edit::SplitFace { .. }
+        | Edit::Rim { .. } => act_on_cage(model, edit),
         Edit::Rename { name } => {
             model.document_mut().name.clone_from(name);
             Ok(model.document.validate()?)
@@ -217,6 +219,7 @@ fn act_on_cage(model: &mut Model, edit: &Edit) -> Result<(), ModelError> {
         Edit::SplitFace { surface, face, between } => {
             split_face::split_face(model, *surface, *face, *between)
         }
+        Edit::Rim { surface, ends, between } => rim::rim(model, *surface, *ends, *between),
         _ => Ok(()),
     }
 }

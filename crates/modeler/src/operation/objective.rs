@@ -13,6 +13,11 @@ pub(super) fn choose(
     match of {
         ObjectiveOf::Document => model.document_mut().objective = objective.unwrap_or_default(),
         ObjectiveOf::Curve(id) => {
+            super::rim::check_free(
+                &model.document,
+                id,
+                "it minimises nothing, but goes where the cage leads it",
+            )?;
             let curve = model.document_mut().curves.get_mut(&id).ok_or(ModelError::NoCurve(id))?;
             curve.objective = objective;
         }

@@ -2,6 +2,7 @@
 
 use crate::error::ModelError;
 use crate::model::Model;
+use crate::operation::rim;
 use ductile_spec::{CurveId, PointId};
 use glam::DVec3;
 
@@ -13,6 +14,7 @@ pub(super) fn tangent(
     direction: Option<DVec3>,
 ) -> Result<(), ModelError> {
     model.point(point)?;
+    rim::check_free(&model.document, curve, "its directions are those of the surface; move the cage")?;
     let tangents =
         &mut model.document_mut().curves.get_mut(&curve).ok_or(ModelError::NoCurve(curve))?.tangents;
     match direction {

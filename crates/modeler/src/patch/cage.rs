@@ -13,7 +13,7 @@ pub struct CageShape {
     points: Vec<PointId>,
     places: Vec<DVec3>,
     edges: Vec<[u32; 2]>,
-    surface: CageSurface,
+    pub(super) surface: CageSurface,
     tessellation: Tessellation,
     /// Vertices that were evaluated when it last followed its cage.
     evaluated: usize,
@@ -33,8 +33,7 @@ impl CageShape {
         document: &Document,
         revision: u64,
     ) -> Result<Self, ModelError> {
-        let polygons = Polygons::of(id, cage, document)?;
-        let surface = CageSurface::new(&polygons.cage, settings(cage)).map_err(|e| polygons.refused(e))?;
+        let (polygons, surface) = exact(id, cage, document)?;
         let resolution = cage.resolution() as usize;
         let tessellation = Tessellation::new(&surface, resolution).map_err(|e| polygons.refused(e))?;
         let edge = |ends: [PointId; 2]| -> Result<[u32; 2], ModelError> {
@@ -87,6 +86,20 @@ impl CageShape {
             self.places = places;
         }
     }
+}
+
+/// The surface over a cage of a document, with the cage.
+///
+/// # Errors
+/// As [`CageShape::new`].
+pub(super) fn exact(
+    id: SurfaceId,
+    cage: &ductile_spec::Cage,
+    document: &Document,
+) -> Result<(Polygons, CageSurface), ModelError> {
+    let polygons = Polygons::of(id, cage, document)?;
+    let surface = CageSurface::new(&polygons.cage, settings(cage)).map_err(|e| polygons.refused(e))?;
+    Ok((polygons, surface))
 }
 
 /// What a document says of a cage, in the words of the mathematics.

@@ -4,6 +4,7 @@
 
 mod cage;
 pub(crate) mod fill;
+mod led;
 mod mesh;
 mod polygons;
 mod rim;
@@ -21,6 +22,7 @@ use glam::DVec3;
 
 pub use cage::CageShape;
 pub use fill::{FillError, FillShape};
+pub(crate) use led::{Led, led_nodes};
 pub use mesh::MeshShape;
 pub(crate) use polygons::{caged, change};
 pub(crate) use rim::PatchRim;

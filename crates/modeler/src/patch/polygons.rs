@@ -2,7 +2,7 @@
 
 use crate::error::ModelError;
 use crate::model::Model;
-use crate::operation::{drop_unused, kept_position};
+use crate::operation::{drop_unused, kept_position, rim};
 use ductile_patch::cage::edit::EditError;
 use ductile_patch::cage::{self, CageError};
 use ductile_spec::{Document, PointId, SurfaceId, SurfaceKind};
@@ -95,6 +95,10 @@ pub(crate) fn change(
     if let Some(cage) = model.document_mut().cages.get_mut(&surface) {
         cage.faces = faces;
     }
+    for vertex in &points[before.points.len()..] {
+        rim::split(model, surface, *vertex)?;
+    }
+    rim::free_lost(model.document_mut());
     drop_unused(model, before.points);
     model.document.validate()?;
     model.build_patch(surface)

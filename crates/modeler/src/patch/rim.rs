@@ -42,10 +42,17 @@ impl<'a> PatchRim<'a> {
     }
 
     /// The unit normal of the surface at the place of its rim nearest to a given one; none without a rim or a tangent plane.
-    pub(super) fn normal(&self, at: DVec3) -> Option<DVec3> {
+    pub(crate) fn normal(&self, at: DVec3) -> Option<DVec3> {
         let ([a, b, _], t, _) = self.nearest(at)?;
         let normals = self.patch.normals();
         normals[a as usize].lerp(normals[b as usize], t).try_normalize()
+    }
+
+    /// The place of the rim nearest to a given one; none without a rim.
+    pub(crate) fn place(&self, at: DVec3) -> Option<DVec3> {
+        let ([a, b, _], t, _) = self.nearest(at)?;
+        let place = self.patch.positions();
+        Some(place[a as usize].lerp(place[b as usize], t))
     }
 
     /// Whether all these places lie on it, or nearly.

@@ -167,6 +167,8 @@ pub(crate) fn add_curve(
     let id = model.document.next_curve();
     let mut curve = Curve::new(points.iter().map(|(_, point)| *point).collect(), closed);
     curve.objective = like.objective;
+    // A part of a rim is one; a copy elsewhere is not.
+    curve.rim = like.rim.filter(|_| curve.through.iter().all(|point| like.through.contains(point)));
     curve.tangents = points.iter().filter_map(|(_, point)| Some((*point, tangent(*point)?))).collect();
     let revision = model.next_revision();
     let nodes = samples.iter().map(|sample| shape.nodes[*sample]).collect();

@@ -196,6 +196,32 @@ impl CageSurface {
         Ok(SurfacePoint { point, first: [du, dv], second, normal, curvatures })
     }
 
+    /// The point on an edge of a face of the cage, from its corner `corner` (at `t` = 0) to the next (at 1), and the direction of the edge
+    /// there: the derivative by `t`.
+    ///
+    /// # Errors
+    /// [`CageError::NoSuchQuad`] for a corner that does not exist, and [`CageError::Parameter`].
+    pub fn on_edge(&self, face: usize, corner: usize, t: f64) -> Result<(SurfacePoint, DVec3), CageError> {
+        let quads = self.quads_of_face(face);
+        let corners = if self.settings.split == Split::None { 4 } else { quads.len() };
+        if quads.is_empty() || corner >= corners {
+            return Err(CageError::NoSuchQuad { quad: corner, count: corners });
+        }
+        if self.settings.split != Split::None {
+            // The quads at both corners have half of it each: the one from its corner 0 to 1, the other from 3 to 0.
+            if t <= 0.5 {
+                let point = self.evaluate(quads.start + corner, 2.0 * t, 0.0)?;
+                return Ok((point, point.first[0] * 2.0));
+            }
+            let point = self.evaluate(quads.start + (corner + 1) % corners, 0.0, 2.0 - 2.0 * t)?;
+            return Ok((point, point.first[1] * -2.0));
+        }
+        let (u, v) = [(t, 0.0), (1.0, t), (1.0 - t, 1.0), (0.0, 1.0 - t)][corner];
+        let point = self.evaluate(quads.start, u, v)?;
+        let [du, dv] = point.first;
+        Ok((point, [du, dv, -du, -dv][corner]))
+    }
+
     /// Weights of the vertex and its ring in a quad, at parameters as seen from that corner.
     pub(super) fn corner_weights(&self, n: usize, u: f64, v: f64) -> Vec<Jet> {
         corner_weights(n, self.settings.map, &self.blender, u, v)

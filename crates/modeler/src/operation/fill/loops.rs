@@ -3,7 +3,7 @@
 
 use crate::model::Model;
 use ductile_patch::{Directed, NetworkEdge};
-use ductile_spec::{CurveId, FillSide, PointId, SurfaceId};
+use ductile_spec::{Cage, CurveId, FillSide, PointId, SurfaceId};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The curves of a model, cut at the points where they meet or end.
@@ -169,6 +169,7 @@ impl Neighbours {
                 }
             }
         }
+        found.add_rims(model);
         for (id, fill) in &model.document.fills {
             let mut all = BTreeSet::new();
             for side in &fill.sides {
@@ -183,6 +184,22 @@ impl Neighbours {
             found.loops.insert(all);
         }
         found
+    }
+
+    /// The surfaces over cages whose rims are curves.
+    fn add_rims(&mut self, model: &Model) {
+        for (id, curve) in &model.document.curves {
+            let Some(surface) = curve.rim else { continue };
+            let Some(rim) = model.document.cages.get(&surface).map(Cage::rim) else { continue };
+            let count = curve.through.len();
+            for k in 0..if curve.closed { count } else { count - 1 } {
+                let (from, to) = (curve.through[k], curve.through[(k + 1) % count]);
+                // A rim has its cage on the left.
+                let left = rim.get(&from).is_some_and(|edge| edge.to == to);
+                let beside = Beside { surface, ends: true, left: Some(left) };
+                self.beside.entry((*id, from, to)).or_default().push(beside);
+            }
+        }
     }
 
     /// Whether a fill has exactly these sides.

@@ -260,10 +260,14 @@ pub(crate) fn forget_lost(model: &mut Model) {
 }
 
 fn lies_on(model: &Model, surface: SurfaceId, side: &FillSide) -> bool {
-    if let Some(mesh) = model.patches.get(&surface).filter(|_| model.document.meshes.contains_key(&surface)) {
-        return patch::fill::places(model, side).is_some_and(|places| PatchRim::new(mesh).is_at(&places));
-    }
     let curve = side.curve;
+    if model.document.curves.get(&curve).is_some_and(|curve| curve.rim == Some(surface)) {
+        return true;
+    }
+    let has_rim = model.document.meshes.contains_key(&surface) || model.document.cages.contains_key(&surface);
+    if let Some(patch) = model.patches.get(&surface).filter(|_| has_rim) {
+        return patch::fill::places(model, side).is_some_and(|places| PatchRim::new(patch).is_at(&places));
+    }
     let fair = model.document.surfaces.get(&surface);
     let fill = model.document.fills.get(&surface);
     fair.is_some_and(|surface| surface.skeleton.curves.iter().any(|e| e.curve == curve))

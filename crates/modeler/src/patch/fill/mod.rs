@@ -4,15 +4,16 @@
 //! names as well as they can, and are fair where it names none. It takes as few sums as a frame can bear, so a fill follows its
 //! curves and its neighbours in every frame. Fills whose planes come from others are done after those.
 
+mod corners;
 mod error;
 mod planes;
 mod side;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use corners::{corners, held, joined};
 pub use error::FillError;
-pub(crate) use planes::corners;
-pub(crate) use side::{Drawn, Side, places};
+pub(crate) use side::{Drawn, Side, places, tangents};
 
 use super::{NetLines, PatchShape};
 use crate::model::Model;
@@ -21,7 +22,7 @@ use crate::shape::edit;
 use ductile_patch::s_patch::{Fill as Rule, Join, PatchKind, SPatch, Tessellated};
 use ductile_patch::{PlaneSample, Ribbon, RibbonLoop, curve_point, elevated, ribbons_along};
 use ductile_spec::{
-    CurveStretch, FILL_RESOLUTION, Fill, FillFigures, FillInterior, FillJoin, FillStyle, SurfaceId,
+    CurveId, CurveStretch, FILL_RESOLUTION, Fill, FillFigures, FillInterior, FillJoin, FillStyle, SurfaceId,
 };
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
@@ -34,6 +35,16 @@ const EASY_POINTS: f64 = 2_000.0;
 const DEGREES: [usize; 3] = [5, 4, 3];
 /// Sine of the least angle by which a loop turns at a corner, and of which it stays away from turning back: 5°.
 const FLAT: f64 = 0.087;
+
+/// A plane at a corner that a surface gives, and the curves that have to leave in it.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Lead {
+    /// Whose plane it is.
+    pub(crate) surface: SurfaceId,
+    /// Its unit normal.
+    pub(crate) normal: DVec3,
+    pub(crate) curves: BTreeSet<CurveId>,
+}
 
 /// A fill, as its curves were when it last could follow them.
 #[derive(Clone, Debug)]
@@ -300,7 +311,7 @@ pub(crate) fn follow(model: &mut Model, relaxer: Option<&Relaxer>) {
         return;
     }
     let document = Arc::clone(&model.document);
-    let (degrees, corner_planes) = (degrees(model), side::planes(model));
+    let (degrees, corner_planes) = (degrees(model), side::planes(model, relaxer));
     let mut is_new: BTreeSet<SurfaceId> = BTreeSet::new();
     for (id, fill) in &document.fills {
         let Some(shape) = shape(model, *id) else { continue };

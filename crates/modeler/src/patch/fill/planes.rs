@@ -4,15 +4,16 @@
 //! An agreed plane lies half way between what the two ribbons would have by themselves. At a corner all curves of fills there
 //! should lie in one plane (see `modeler/network`), and the agreed planes lead up to that one.
 
-use super::{Side, shape};
+use super::{Drawn, Side, shape};
+use crate::bank;
 use crate::model::Model;
 use crate::patch::PatchRim;
 use crate::relax::Relaxer;
 use ductile_patch::s_patch::Domain;
 use ductile_patch::{PlaneSample, RibbonLoop, curve_derivative, plane_of_directions};
-use ductile_spec::{CurveId, CurveStretch, Document, Fill, FillJoin, PointId, SurfaceId};
+use ductile_spec::{CurveId, CurveStretch, Fill, FillJoin, PointId, SurfaceId};
 use glam::DVec3;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// Places along a side at which planes are asked for.
 const PLACES: usize = 32;
@@ -33,8 +34,8 @@ pub(super) fn of(model: &Model, relaxer: Option<&Relaxer>, id: SurfaceId) -> Vec
     for (at, (side, drawn)) in fill.sides.iter().zip(&own.sides).enumerate() {
         let normals = match side.planes {
             Some(beside) if model.surfaces.contains_key(&beside) => of_fair(model, relaxer, beside, drawn),
-            Some(beside) if model.document.meshes.contains_key(&beside) => of_mesh(model, beside, drawn),
-            Some(beside) => of_fill(model, beside, drawn),
+            Some(beside) if model.document.fills.contains_key(&beside) => of_fill(model, beside, drawn),
+            Some(beside) => of_rim(model, beside, drawn),
             None => agreed(model, id, at, drawn),
         };
         let on_side = |(u, normal): (f64, DVec3)| {
@@ -57,20 +58,29 @@ fn of_fair(model: &Model, relaxer: Option<&Relaxer>, beside: SurfaceId, side: &S
     let Some(bound) = relaxer.and_then(|relaxer| relaxer.surface(beside, shape)) else { return Vec::new() };
     let curve: CurveId = side.drawn.stretch.curve;
     let Some(embedded) = shape.embeddings.iter().find(|e| e.curve == curve) else { return Vec::new() };
+    let normals = bank::along(model, bound, embedded);
     let sample = |edge: usize| {
-        let vertex = embedded.vertices.get((side.drawn.first + edge) % embedded.vertices.len())?;
-        let normal = bound.normals().get(bound.node(*vertex) as usize)?;
+        let normal = normals.get((side.drawn.first + edge) % normals.len())?;
         Some((side.parameter_of_sample(edge), *normal))
     };
     (0..=side.drawn.edges).filter_map(sample).collect()
 }
 
-/// The normals of a fixed mesh at the samples of a stretch that runs along its rim.
-fn of_mesh(model: &Model, beside: SurfaceId, side: &Side) -> Vec<(f64, DVec3)> {
+/// The normals of a surface over a cage, or of a fixed mesh, along a stretch at its rim: exact at all places where the rim leads the
+/// curve, else those of the tessellation at the samples.
+fn of_rim(model: &Model, beside: SurfaceId, side: &Side) -> Vec<(f64, DVec3)> {
+    let Drawn { stretch, steps, ref places, .. } = side.drawn;
+    if let Some(normals) = side.drawn.normals.as_ref().filter(|_| leads(model, beside, stretch.curve)) {
+        return side.fit.parameters.iter().copied().zip(normals.iter().copied()).collect();
+    }
     let Some(patch) = model.patches.get(&beside) else { return Vec::new() };
     let rim = PatchRim::new(patch);
-    let samples = side.drawn.places.iter().step_by(side.drawn.steps).enumerate();
+    let samples = places.iter().step_by(steps).enumerate();
     samples.filter_map(|(edge, at)| Some((side.parameter_of_sample(edge), rim.normal(*at)?))).collect()
+}
+
+fn leads(model: &Model, surface: SurfaceId, curve: CurveId) -> bool {
+    model.document.curves.get(&curve).is_some_and(|curve| curve.rim == Some(surface))
 }
 
 /// The side of a fill that is this stretch, with its number.
@@ -146,28 +156,6 @@ fn agreed(model: &Model, id: SurfaceId, at: usize, side: &Side) -> Vec<(f64, DVe
         Some((u, between(u)? + first * ease(u) + last * ease(1.0 - u)))
     };
     places().filter_map(lead).collect()
-}
-
-/// The corners at which fills join smoothly along a curve, with all curves of those fills there: they have to lie in one plane.
-pub(crate) fn corners(document: &Document) -> BTreeMap<PointId, BTreeSet<CurveId>> {
-    let mut on: BTreeMap<CurveStretch, Vec<(&Fill, usize)>> = BTreeMap::new();
-    for fill in document.fills.values().filter(|fill| fill.style.join == FillJoin::Tangent) {
-        for (at, side) in fill.sides.iter().enumerate() {
-            let Some(curve) = document.curves.get(&side.curve) else { continue };
-            on.entry(side.stretch(curve).0).or_default().push((fill, at));
-        }
-    }
-    let mut corners: BTreeMap<PointId, BTreeSet<CurveId>> = BTreeMap::new();
-    for (stretch, fills) in on.into_iter().filter(|(_, fills)| fills.len() == 2) {
-        for (fill, at) in fills {
-            let count = fill.sides.len();
-            let (before, after) = (&fill.sides[(at + count - 1) % count], &fill.sides[(at + 1) % count]);
-            for (point, other) in [(fill.sides[at].from, before), (fill.sides[at].to, after)] {
-                corners.entry(point).or_default().extend([stretch.curve, other.curve]);
-            }
-        }
-    }
-    corners
 }
 
 /// The normal of the plane in which all curves of fills at a corner lie, if they nearly do.

@@ -1,9 +1,12 @@
 //! The sides of a fill as curves: places along a stretch of a control curve, and the Bézier curve nearest to them. Everything is
 //! reckoned in the sense of the control curve, so that two fills with one stretch get the same bits.
 
+use super::corners::{corners, held};
 use super::error::FillError;
-use super::planes::{COPLANAR, corners};
+use super::planes::COPLANAR;
 use crate::model::Model;
+use crate::patch::Led;
+use crate::relax::Relaxer;
 use crate::shape::CurveShape;
 use ductile_patch::{CurveFit, fit_curve_along, plane_of_directions};
 use ductile_spec::{Curve, CurveId, CurveStretch, Fill, FillSide, PointId};
@@ -26,6 +29,8 @@ pub(crate) struct Drawn {
     pub(crate) places: Vec<DVec3>,
     /// The directions in which the curve leaves its first place and arrives at its last.
     pub(crate) directions: [DVec3; 2],
+    /// The normals at the places of the surface over a cage whose rim the curve is.
+    pub(crate) normals: Option<Vec<DVec3>>,
     /// Of which degree a Bézier curve is wanted.
     pub(crate) degree: usize,
 }
@@ -114,8 +119,9 @@ impl Bends<'_> {
     }
 }
 
-/// The planes of points where fills join smoothly: those in which their curves leave, as nearly as they do.
-pub(super) fn planes(model: &Model) -> Planes {
+/// The planes of points where fills join smoothly: those in which their curves leave, as nearly as they do; and of points where a
+/// surface beside a fill gives the plane.
+pub(super) fn planes(model: &Model, relaxer: Option<&Relaxer>) -> Planes {
     let mut planes = Planes::new();
     for (point, curves) in corners(&model.document).into_iter().filter(|(_, curves)| curves.len() > 2) {
         let none = [(point, DVec3::ZERO)].into();
@@ -128,6 +134,7 @@ pub(super) fn planes(model: &Model) -> Planes {
             planes.insert(point, normal);
         }
     }
+    planes.extend(held(model, relaxer).into_iter().map(|(point, lead)| (point, lead.normal)));
     planes
 }
 
@@ -143,18 +150,43 @@ pub(super) fn drawn(model: &Model, planes: &Planes, side: &FillSide, degree: usi
     }
     let bends = Bends { curve, shape, planes };
     let steps = FEWEST_STEPS.div_ceil(edges);
+    let led = Led::of(model, side.curve);
     let mut places = Vec::with_capacity(edges * steps + 1);
+    let mut on_rim = Vec::new();
     for edge in 0..edges {
         let edge = (first + edge) % count;
+        if let Some(led) = &led {
+            let all = (0..steps).map(|step| led.on_sampling(shape, edge, step as f64 / steps as f64));
+            on_rim.extend(all.collect::<Option<Vec<_>>>()?);
+            continue;
+        }
         places.push(shape.nodes[edge]);
         places.extend((1..steps).map(|step| bends.place(edge, step as f64 / steps as f64)));
     }
-    places.push(shape.nodes[last]);
+    let mut directions = [bends.tangent(first), bends.tangent(last)];
+    if let Some(led) = &led {
+        on_rim.push(led.on_sampling(shape, last, 0.0)?);
+        places.extend(on_rim.iter().map(|at| at.surface.point));
+        directions = [on_rim[0].along, on_rim[on_rim.len() - 1].along];
+    } else {
+        places.push(shape.nodes[last]);
+    }
+    let normals = led.is_some().then(|| on_rim.iter().map(|at| at.normal).collect());
     // The corners are where the document has them, though in a fast drag a curve may not have come there yet: so sides always meet.
     let corner = |point| model.document.points.get(&point).copied();
     (places[0], places[edges * steps]) = (corner(stretch.from)?, corner(stretch.to)?);
-    let directions = [bends.tangent(first), bends.tangent(last)];
-    Some(Drawn { stretch, back, first, edges, steps, places, directions, degree })
+    Some(Drawn { stretch, back, first, edges, steps, places, directions, normals, degree })
+}
+
+/// The unit tangents of a control curve at its samples, as fills take them.
+pub(crate) fn tangents(model: &Model, id: CurveId) -> Vec<DVec3> {
+    let (Some(curve), Some(shape)) = (model.document.curves.get(&id), model.curves.get(&id)) else {
+        return Vec::new();
+    };
+    let (planes, led) = (Planes::new(), Led::of(model, id));
+    let bends = Bends { curve, shape, planes: &planes };
+    let exact = |sample| Some(led.as_ref()?.on_sampling(shape, sample, 0.0)?.along);
+    (0..shape.nodes.len()).map(|sample| exact(sample).unwrap_or_else(|| bends.tangent(sample))).collect()
 }
 
 /// Places along a side, in its own direction, for it to be shown.

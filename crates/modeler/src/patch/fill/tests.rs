@@ -322,3 +322,67 @@ fn a_hole_in_a_fair_surface_is_filled_in_its_planes() {
         assert!(seam.gap < 1e-4 && seam.angle < 0.5 && seam.curvature_jump < 0.5, "{seam:?}");
     }
 }
+
+/// Lifts a corner of the hole by so much, and tells the worst of all seams at rest.
+fn lifted(modeler: &mut Modeler, id: SurfaceId, by: f64) -> (f64, f64, f64) {
+    let corner = modeler.model().document.fills[&id].sides[0].from;
+    let at = modeler.model().document.points[&corner];
+    ask(modeler, Request::Grab(GrabTarget::Point(corner)));
+    for k in 1..=10 {
+        let target = at + DVec3::Z * (by * f64::from(k) / 10.0);
+        ask(modeler, Request::Step(Step { drag: Some(target), iterations: 50 }));
+    }
+    ask(modeler, Request::Drop);
+    rest(modeler);
+    let found = seams(modeler).seams;
+    let most = |of: fn(&ductile_spec::SeamFigures) -> f64| found.iter().map(of).fold(0.0, f64::max);
+    (most(|seam| seam.gap), most(|seam| seam.angle), most(|seam| seam.curvature_jump))
+}
+
+#[test]
+fn a_fill_in_a_fair_surface_stays_smooth_when_a_corner_of_the_hole_is_dragged() {
+    // A tenth and a fifth of the model; how near a fill comes to curves that bend so much is for its degree to say.
+    for (degree, most) in [(None, [0.5, 0.7]), (Some(7), [0.1, 0.3])] {
+        let (mut modeler, curves) = holed();
+        let hole = Hole::Near { curve: curves[1], at: Some(DVec3::new(0.0, -0.6, 0.1)) };
+        edit(&mut modeler, Edit::Fill { hole, style: FillStyle { degree, ..FillStyle::default() } });
+        rest(&mut modeler);
+        let id = *modeler.model().document.fills.last_key_value().unwrap().0;
+        for (by, most) in [0.3, 0.3].into_iter().zip(most) {
+            let (gap, angle, jump) = lifted(&mut modeler, id, by);
+            println!("degree {degree:?}: gap {gap:e}, {angle}°, jump {jump}");
+            assert!(gap < 1.5e-3 && angle < most && jump < 6.0, "{degree:?}: {gap:e} {angle} {jump}");
+        }
+        // The fair surface has the plane of both curves at every corner, not only in the report.
+        let model = modeler.model();
+        let shape = &model.surfaces[&SurfaceId(1)];
+        let bound = modeler.relaxer().surface(SurfaceId(1), shape).unwrap();
+        let corners = crate::bank::corners(model, SurfaceId(1), shape);
+        assert_eq!(corners.len(), 4);
+        for (v, wanted) in corners {
+            let own = bound.normals()[bound.node(v) as usize];
+            assert!(own.cross(wanted.normalize()).length() < 1e-4, "{own} {wanted}");
+        }
+    }
+}
+
+#[test]
+fn one_of_two_fills_that_join_smoothly_is_not_baked_alone() {
+    let (mut modeler, curves) = neighbours();
+    edit(&mut modeler, Edit::FillNetwork { curve: Some(curves[0]), style: FillStyle::default() });
+    rest(&mut modeler);
+    let before = (mesh(&modeler, 1), mesh(&modeler, 2));
+    let refused = modeler.handle(Request::Edit(Edit::Bake { surface: SurfaceId(1) })).refused.unwrap();
+    assert!(refused.reason.contains("joins surface 1 smoothly along curve 1"), "{}", refused.reason);
+    assert!(before == (mesh(&modeler, 1), mesh(&modeler, 2)));
+    // Joined by position, the other one stays what it is.
+    let style = FillStyle { join: FillJoin::Position, ..FillStyle::default() };
+    edit(&mut modeler, Edit::Refill { surface: SurfaceId(2), style });
+    rest(&mut modeler);
+    let other = mesh(&modeler, 2).0;
+    edit(&mut modeler, Edit::Bake { surface: SurfaceId(1) });
+    rest(&mut modeler);
+    let moved = mesh(&modeler, 2).0.iter().zip(&other).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
+    // Curves that rested rest a little better.
+    assert!(moved < 1e-6, "{moved:e}");
+}

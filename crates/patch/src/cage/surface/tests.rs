@@ -75,6 +75,47 @@ fn seams_with(surface: &CageSurface, at: &dyn Fn(usize, f64, f64) -> SurfacePoin
 }
 
 #[test]
+fn edges_of_faces_run_from_corner_to_corner_and_both_faces_have_the_same_one() {
+    for (number, cage) in (0_u64..).zip(family()) {
+        let cage = shaken(&cage, 0.05, number);
+        for split in [Split::None, Split::Linear, Split::Offset] {
+            let settings = Settings { split, ..settings(&cage, Map::Smooth, Blend::Hermite(2)) };
+            let Ok(surface) = CageSurface::new(&cage, settings) else { continue };
+            for (face, corners) in cage.faces().iter().enumerate() {
+                for corner in 0..corners.len() {
+                    let ends = [corners[corner], corners[(corner + 1) % corners.len()]];
+                    let at = |t: f64| surface.on_edge(face, corner, t).unwrap();
+                    for (end, t) in ends.into_iter().zip([0.0, 1.0]) {
+                        assert!(at(t).0.point.distance(cage.positions()[end as usize]) < 1e-12);
+                    }
+                    for t in [0.2, 0.45, 0.8] {
+                        let step = 1e-6;
+                        let slope = (at(t + step).0.point - at(t - step).0.point) / (2.0 * step);
+                        assert!(
+                            slope.distance(at(t).1) < 1e-7 * (1.0 + slope.length()),
+                            "{number} {split:?}"
+                        );
+                    }
+                    let mirrored = cage.faces().iter().enumerate().find_map(|(face, corners)| {
+                        let next = |k: usize| corners[(k + 1) % corners.len()];
+                        let k = (0..corners.len()).find(|k| corners[*k] == ends[1] && next(*k) == ends[0])?;
+                        Some((face, k))
+                    });
+                    if let Some((face, k)) = mirrored {
+                        let other = surface.on_edge(face, k, 0.7).unwrap();
+                        assert!(other.0.point.distance(at(0.3).0.point) < 1e-12);
+                        assert!(angle(other.1, -at(0.3).1) < 1e-9);
+                    }
+                }
+                assert!(surface.on_edge(face, corners.len(), 0.5).is_err());
+            }
+            assert!(surface.on_edge(cage.faces().len(), 0, 0.5).is_err());
+            assert!(surface.on_edge(0, 0, 1.5).is_err() && surface.on_edge(0, 0, f64::NAN).is_err());
+        }
+    }
+}
+
+#[test]
 fn vertices_are_met_and_edges_join() {
     for (number, cage) in (0_u64..).zip(family()) {
         let cage = shaken(&cage, 0.08, number);

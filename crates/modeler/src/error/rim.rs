@@ -1,0 +1,43 @@
+//! Why a curve is no rim of a surface over a cage, or cannot be changed because it is one.
+
+use ductile_spec::{CurveId, PointId, SurfaceId};
+use thiserror::Error;
+
+/// What is wrong with a rim.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum RimError {
+    /// The cage does not end there; choose an edge with a face on one side only.
+    #[error("the cage of {surface} does not end at an edge between {} and {}", .ends[0], .ends[1])]
+    NoEnd {
+        /// The surface over the cage.
+        surface: SurfaceId,
+        /// The ends of the edge.
+        ends: [PointId; 2],
+    },
+    /// Both vertices must lie on the stretch of the rim that has the edge, one before it and one after.
+    #[error("the edge does not lie between {} and {} on the rim of {surface}", .between[0], .between[1])]
+    NotBetween {
+        /// The surface over the cage.
+        surface: SurfaceId,
+        /// The vertices.
+        between: [PointId; 2],
+    },
+    /// One curve for each stretch is enough.
+    #[error("{curve} runs along that rim of {surface} already")]
+    Doubled {
+        /// The curve that is there.
+        curve: CurveId,
+        /// The surface over the cage.
+        surface: SurfaceId,
+    },
+    /// Change the cage instead.
+    #[error("{curve} is a rim of {surface}: {why}")]
+    Leads {
+        /// The curve.
+        curve: CurveId,
+        /// The surface over the cage.
+        surface: SurfaceId,
+        /// What to do instead.
+        why: &'static str,
+    },
+}
