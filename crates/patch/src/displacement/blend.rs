@@ -91,7 +91,7 @@ impl BlendFunction {
             }),
             Blend::Eta(delta) => {
                 let tau = (t - delta) / (1.0 - 2.0 * delta);
-                let slope = || eta_logarithm_slope(tau) + eta_logarithm_slope(1.0 - tau);
+                let slope = || eta_logarithm_slope(tau, 1.0 - tau) + eta_logarithm_slope(1.0 - tau, tau);
                 logistic_slope(tau, eta_exponent(tau), slope) / (1.0 - 2.0 * delta)
             }
         }
@@ -105,15 +105,16 @@ fn bump_exponent(t: f64, k: f64) -> f64 {
 
 /// The same for eq. (7): `ϕ(1 - τ)` above, so the difference of the logarithms of eq. (8).
 fn eta_exponent(tau: f64) -> f64 {
-    eta_logarithm(tau) - eta_logarithm(1.0 - tau)
+    eta_logarithm(tau, 1.0 - tau) - eta_logarithm(1.0 - tau, tau)
 }
 
-fn eta_logarithm(tau: f64) -> f64 {
-    2.0 * libm::exp(-1.0 / tau) / (tau - 1.0)
+/// Of `τ` and `1 - τ`, each as it is: from a `1 - τ` that was rounded to 1 there is no way back to `τ`.
+fn eta_logarithm(tau: f64, rest: f64) -> f64 {
+    -2.0 * libm::exp(-1.0 / tau) / rest
 }
 
-fn eta_logarithm_slope(tau: f64) -> f64 {
-    2.0 * libm::exp(-1.0 / tau) / (tau - 1.0) * (1.0 / (tau * tau) - 1.0 / (tau - 1.0))
+fn eta_logarithm_slope(tau: f64, rest: f64) -> f64 {
+    eta_logarithm(tau, rest) * (1.0 / (tau * tau) + 1.0 / rest)
 }
 
 fn logistic(t: f64, exponent: f64) -> f64 {
@@ -260,6 +261,19 @@ mod tests {
                 assert!((value + mirrored - 1.0).abs() < 2e-14, "{blend:?} is not symmetric at {t}");
                 assert!(function.derivative(t).is_finite() && function.derivative(t) >= 0.0);
                 before = value;
+            }
+        }
+    }
+
+    /// However near to its ends, where `1 - t` is 1: a mesh has heights of 1e-17 beside its boundary.
+    #[test]
+    fn every_blend_stays_near_its_ends() {
+        for function in blends() {
+            for t in [1e-300, 1e-100, 1e-17, 1e-16, 1e-12, 1e-9, 1e-5] {
+                let (value, slope) = (function.value(t), function.derivative(t));
+                assert!(value < 1e-50 && slope < 1e-50, "{:?} at {t:e}: {value} {slope}", function.blend());
+                let mirrored = function.value(1.0 - t);
+                assert!(mirrored > 1.0 - 1e-8 && mirrored <= 1.0, "{:?} at 1 - {t:e}", function.blend());
             }
         }
     }
