@@ -15,6 +15,8 @@ mod kind;
 mod label;
 mod masks;
 mod patch;
+#[cfg(test)]
+mod property;
 mod tessellation;
 #[cfg(test)]
 pub(crate) mod tests;

@@ -75,7 +75,7 @@ fn angle(a: DVec3, b: DVec3) -> f64 {
 }
 
 /// Boundary and normals of a patch against its ribbons.
-fn check_sides(ring: &RibbonLoop, patch: &SPatch, places: usize) {
+pub(super) fn check_sides(ring: &RibbonLoop, patch: &SPatch, places: usize) {
     let domain = Domain::new(ring.sides());
     for (side, ribbon) in ring.ribbons().iter().enumerate() {
         for place in 0..=places {
@@ -103,10 +103,10 @@ proptest! {
 
 #[test]
 fn the_largest_kinds_meet_their_ribbons_and_their_masks() {
-    for (n, d) in [(8, 4), (9, 4)] {
+    for (n, d) in [(7, 5), (8, 4), (8, 5), (9, 4), (9, 5)] {
         let ring = random_loop(n, d, 5);
         let patch = filled(&ring, Join::Tangent, Fill::Biharmonic);
-        check_sides(&ring, &patch, 6);
+        check_sides(&ring, &patch, 4);
         check_masks(&patch, Join::Tangent, Fill::Biharmonic);
     }
 }
@@ -391,9 +391,9 @@ fn size_and_place_do_not_matter() {
     }
 }
 
-/// Ribbons beyond side 0 of a loop: that side mirrored, and a random way round.
-fn beyond(ring: &RibbonLoop, seed: u64) -> RibbonLoop {
-    let (n, d) = (ring.sides(), ring.degree());
+/// Ribbons beyond side 0 of a loop: that side mirrored, and a random way round with so many sides in all.
+pub(super) fn beyond(ring: &RibbonLoop, n: usize, seed: u64) -> RibbonLoop {
+    let d = ring.degree();
     let shared = ring.ribbons()[0].mirrored();
     let mut ribbons = random_loop(n, d, seed).ribbons().to_vec();
     for ribbon in &mut ribbons {
@@ -406,6 +406,10 @@ fn beyond(ring: &RibbonLoop, seed: u64) -> RibbonLoop {
     (ribbons[after].row1[0], ribbons[after].row1[1]) = (shared.row0[d - 1], shared.row1[d - 1]);
     (ribbons[before].row0[d], ribbons[before].row0[d - 1]) = (shared.row0[0], shared.row1[0]);
     (ribbons[before].row1[d], ribbons[before].row1[d - 1]) = (shared.row0[1], shared.row1[1]);
+    if d == 2 {
+        // All twist points are one.
+        ribbons.iter_mut().for_each(|ribbon| ribbon.row1[1] = shared.row1[1]);
+    }
     crate::made_compatible(&ribbons).unwrap().ribbons
 }
 
@@ -413,7 +417,7 @@ fn beyond(ring: &RibbonLoop, seed: u64) -> RibbonLoop {
 fn neighbours_with_mirrored_ribbons_join_smoothly() {
     for (n, d) in [(3, 4), (5, 3), (6, 5)] {
         let ring = random_loop(n, d, 41);
-        let other = beyond(&ring, 42);
+        let other = beyond(&ring, n, 42);
         let [here, there] = [&ring, &other].map(|ring| filled(ring, Join::Tangent, Fill::Biharmonic));
         let domain = Domain::new(n);
         let mut far = there.along_side(&domain, 0, 20);

@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
 /// Displaces every vertex by up to `by` in each coordinate, always the same way for one seed.
-fn shaken(cage: &Cage, by: f64, seed: u64) -> Cage {
+pub(super) fn shaken(cage: &Cage, by: f64, seed: u64) -> Cage {
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
     let mut random = || {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -42,7 +42,7 @@ fn settings(cage: &Cage, map: Map, blend: Blend) -> Settings {
 }
 
 /// The angle between two directions, without the cancellation of an arc cosine.
-fn angle(a: DVec3, b: DVec3) -> f64 {
+pub(super) fn angle(a: DVec3, b: DVec3) -> f64 {
     libm::atan2(a.cross(b).length(), a.dot(b))
 }
 
