@@ -18,7 +18,7 @@ pub(crate) struct Options {
     /// OBJ or PLY file with the polygons of the cage, or - for an OBJ text on standard input
     cage: PathBuf,
     /// OBJ file to write, or - for standard output
-    #[arg(short, long, value_name = "OUT.obj", required_unless_present = "samples")]
+    #[arg(short, long, value_name = "OUT.obj", required_unless_present_any = ["samples", "json"])]
     out: Option<PathBuf>,
     /// Edges along each side of a quad
     #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=256))]

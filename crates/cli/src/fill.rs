@@ -2,14 +2,14 @@
 
 mod request;
 mod samples;
+mod seams;
 mod weld;
 
 use crate::input::{self, CliError};
 use clap::ValueEnum;
-use ductile_patch::s_patch::{
-    BuildError, Domain, Fill, Join, MaskCache, SPatch, Tessellation, TessellationError,
-};
-use ductile_patch::{NoNormal, RibbonError, RibbonLoop, Seam, made_compatible, seam};
+use ductile_patch::s_patch::{BuildError, Fill, Join, MaskCache, SPatch, Tessellation, TessellationError};
+use ductile_patch::{NoNormal, RibbonError, RibbonLoop, made_compatible};
+use glam::DVec3;
 use request::Request;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -22,7 +22,7 @@ pub(crate) struct Options {
     /// Ribbons in JSON: one patch, or a list of them; - for standard input
     ribbons: PathBuf,
     /// OBJ file to write, or - for standard output
-    #[arg(short, long, value_name = "OUT.obj", required_unless_present = "samples")]
+    #[arg(short, long, value_name = "OUT.obj", required_unless_present_any = ["samples", "json"])]
     out: Option<PathBuf>,
     /// Edges along each side of a patch
     #[arg(long, default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=1000))]
@@ -67,6 +67,8 @@ enum FillError {
 /// A patch of the file, and what is worth telling of it.
 pub(crate) struct Patch {
     patch: SPatch,
+    /// Control points of its boundary curves.
+    rows: Vec<Vec<DVec3>>,
     about: About,
 }
 
@@ -104,33 +106,11 @@ struct Report {
     patches: Vec<About>,
     #[serde(skip_serializing_if = "Option::is_none")]
     mesh: Option<weld::Counts>,
-    /// How well patches meet along the sides that they share.
-    seams: Vec<SeamReport>,
+    /// How well patches meet where their sides run along one another.
+    seams: Vec<seams::SeamReport>,
     #[serde(skip_serializing_if = "Option::is_none")]
     samples: Option<Vec<samples::Sample>>,
 }
-
-/// The worst of a seam, at 65 places.
-#[derive(Serialize)]
-struct SeamReport {
-    patch: usize,
-    side: usize,
-    other_patch: usize,
-    other_side: usize,
-    /// In model units.
-    gap: f64,
-    /// Between the tangent planes, in radians.
-    angle: f64,
-    /// Of the mean curvature, per model unit.
-    curvature_jump: f64,
-    /// How many of the places have no normal on one side.
-    without_normal: usize,
-    /// At how many of the places curvatures were not compared.
-    without_curvature: usize,
-}
-
-/// Places along a seam.
-const SEAM_STEPS: usize = 64;
 
 /// Fills, writes, prints.
 pub(crate) fn run(options: &Options) -> Result<ExitCode, CliError> {
@@ -152,14 +132,14 @@ pub(crate) fn run(options: &Options) -> Result<ExitCode, CliError> {
         patches.push(patch);
     }
     let samples = places.map(|places| samples::evaluate(&places, &patches)).transpose()?;
-    let (mut counts, mut seams) = (None, Vec::new());
+    let mut counts = None;
     if let Some(out) = &options.out {
         let mesh = mesh(options, &patches)?;
         input::write(out, &mesh.to_obj())?;
         counts = Some(mesh.counts());
-        seams = mesh.sewn.iter().filter_map(|sewn| seam_of(sewn, &patches)).collect();
     }
     if options.json {
+        let seams = seams::seams(&patches);
         let patches = patches.into_iter().map(|patch| patch.about).collect();
         let report = Report { patches, mesh: counts, seams, samples };
         let text = serde_json::to_string_pretty(&report).map_err(|e| CliError::Option(e.to_string()))?;
@@ -226,7 +206,8 @@ fn filled(options: &Options, request: &Request, cache: &mut MaskCache) -> Result
         moved,
         without_normal,
     };
-    Ok(Patch { patch, about })
+    let rows = ring.ribbons().iter().map(|ribbon| ribbon.row0.clone()).collect();
+    Ok(Patch { patch, rows, about })
 }
 
 /// The mesh of all patches, sewn where they share a side.
@@ -247,28 +228,4 @@ fn mesh(options: &Options, patches: &[Patch]) -> Result<weld::Welded, CliError> 
         pieces.push(weld::Piece::new(&grids[at], patch.sides(), found));
     }
     Ok(weld::weld(pieces))
-}
-
-fn seam_of(sewn: &weld::Sewn, patches: &[Patch]) -> Option<SeamReport> {
-    let [(patch, side), (other_patch, other_side)] = sewn.sides;
-    let along = |patch: usize, side: usize| {
-        let patch = &patches[patch].patch;
-        patch.along_side(&Domain::new(patch.sides()), side, SEAM_STEPS)
-    };
-    let (one, mut other) = (along(patch, side), along(other_patch, other_side));
-    if sewn.is_reversed {
-        other.reverse();
-    }
-    let Seam { gap, angle, curvature_jump, without_normal, without_curvature, .. } = seam(&one, &other)?;
-    Some(SeamReport {
-        patch,
-        side,
-        other_patch,
-        other_side,
-        gap,
-        angle,
-        curvature_jump,
-        without_normal,
-        without_curvature,
-    })
 }

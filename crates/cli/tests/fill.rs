@@ -158,6 +158,71 @@ fn patches_that_share_sides_are_sewn() {
     );
 }
 
+/// A bicubic patch over a rectangle whose curves and planes are those of a saddle exactly; the inner control points beside its sides 0
+/// and 2 can be lifted out of the planes.
+fn saddle([x0, x1]: [f64; 2], [y0, y1]: [f64; 2], lift: f64) -> Value {
+    let at = |u: usize, v: usize| {
+        let (i, j) = (u as f64 / 3.0, v as f64 / 3.0);
+        let (x, y) = (x0 + (x1 - x0) * i, y0 + (y1 - y0) * j);
+        // The blossom of the square: as many arguments at the far end as the number of the control point.
+        let ends: Vec<f64> = (0..3).map(|k| if k < u { x1 } else { x0 }).collect();
+        let square = (ends[0] * ends[1] + ends[1] * ends[2] + ends[2] * ends[0]) / 3.0;
+        let is_inner = (1..3).contains(&u) && (1..3).contains(&v);
+        json!([x, y, 0.1 * square - 0.2 * x * y + if is_inner { lift } else { 0.0 }])
+    };
+    let rows = |of: &dyn Fn(usize, usize) -> Value| {
+        let row = |k: usize| (0..4).map(|j| of(j, k)).collect::<Vec<_>>();
+        json!({ "row0": row(0), "row1": row(1) })
+    };
+    json!({ "ribbons": [
+        rows(&|j, k| at(j, k)),
+        rows(&|j, k| at(3 - k, j)),
+        rows(&|j, k| at(3 - j, 3 - k)),
+        rows(&|j, k| at(k, 3 - j)),
+    ] })
+}
+
+/// One long side meets two short ones; no mesh is asked for.
+#[test]
+fn sides_that_meet_in_part_are_seams_too() {
+    let report = |lift: f64| {
+        let patches = json!([
+            saddle([0.0, 2.0], [0.0, 1.0], 0.0),
+            saddle([0.0, 1.0], [-1.0, 0.0], 0.0),
+            saddle([1.0, 2.0], [-1.0, 0.0], lift),
+        ]);
+        let (_folder, file) = with_ribbons(&patches);
+        json_of(&ductile(&["fill", &file, "--json"]))
+    };
+    let even = report(0.0);
+    assert!(even.get("mesh").is_none() && even.get("samples").is_none(), "{even}");
+    let seams = even["seams"].as_array().unwrap();
+    let sides = |seam: &Value| {
+        ["patch", "side", "other_patch", "other_side"].map(|name| seam[name].as_u64().unwrap())
+    };
+    assert_eq!(seams.iter().map(sides).collect::<Vec<_>>(), [[0, 0, 1, 2], [0, 0, 2, 2], [1, 1, 2, 3]]);
+    for (seam, [along, other_along]) in
+        seams.iter().zip([[[0.0, 0.5], [1.0, 0.0]], [[0.5, 1.0], [1.0, 0.0]], [[0.0, 1.0], [1.0, 0.0]]])
+    {
+        assert!(distance(&seam["along"], &json!(along)) < 1e-12, "{seam}");
+        assert!(distance(&seam["other_along"], &json!(other_along)) < 1e-12, "{seam}");
+        assert!(seam["gap"].as_f64().unwrap() < 1e-14 && seam["angle"].as_f64().unwrap() < 1e-12, "{seam}");
+        assert_eq!(seam["without_normal"], 0);
+    }
+    let lifted = report(0.1);
+    let angle = |at: usize| lifted["seams"][at]["angle"].as_f64().unwrap();
+    assert!(angle(0) < 1e-12 && (0.1..0.6).contains(&angle(1)) && (0.1..0.6).contains(&angle(2)), "{lifted}");
+    // Patches a little apart have a gap; farther apart, no seam.
+    let apart = |by: f64| {
+        let patches = json!([saddle([0.0, 2.0], [0.0, 1.0], 0.0), saddle([0.0, 1.0], [-1.0, -by], 0.0)]);
+        let (_folder, file) = with_ribbons(&patches);
+        json_of(&ductile(&["fill", &file, "--json"]))["seams"].clone()
+    };
+    let gap = apart(1e-5)[0]["gap"].as_f64().unwrap();
+    assert!((gap - 1e-5).abs() < 1e-6, "{gap:e}");
+    assert_eq!(apart(0.01), json!([]));
+}
+
 #[test]
 fn options_choose_the_patch() {
     let file = fixture("s-patch-6-sided-quintic.json");

@@ -20,15 +20,7 @@ pub(super) struct Piece {
 /// A side of a piece among all vertices.
 struct Rim {
     patch: usize,
-    side: usize,
     vertices: Vec<usize>,
-}
-
-/// Two sides that are one, each by patch and side.
-pub(super) struct Sewn {
-    pub(super) sides: [(usize, usize); 2],
-    /// Whether they run in opposite directions, as they do where patches face the same way.
-    pub(super) is_reversed: bool,
 }
 
 /// All patches as one mesh.
@@ -37,7 +29,7 @@ pub(super) struct Welded {
     /// For each vertex of each piece, one after the other, its number in the mesh.
     names: Vec<usize>,
     positions: Vec<DVec3>,
-    pub(super) sewn: Vec<Sewn>,
+    sewn_sides: usize,
 }
 
 /// How much there is in a mesh.
@@ -77,16 +69,15 @@ pub(super) fn weld(pieces: Vec<Piece>) -> Welded {
         .zip(&starts)
         .enumerate()
         .flat_map(|(patch, (piece, start))| {
-            piece.sides.iter().enumerate().map(move |(side, vertices)| Rim {
+            piece.sides.iter().map(move |vertices| Rim {
                 patch,
-                side,
                 vertices: vertices.iter().map(|vertex| start + vertex).collect(),
             })
         })
         .collect();
     // Each vertex points to an earlier one that it is sewn to, or to itself.
     let mut same: Vec<usize> = (0..all.len()).collect();
-    let mut sewn = Vec::new();
+    let mut sewn_sides = 0;
     let mut by_middle: Vec<(f64, usize)> =
         sides.iter().enumerate().map(|(at, rim)| (middle(&all, &rim.vertices), at)).collect();
     by_middle.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -98,20 +89,18 @@ pub(super) fn weld(pieces: Vec<Piece>) -> Welded {
             if one.patch == other.patch {
                 continue;
             }
-            let is_reversed = own.iter().zip(there.iter().rev()).all(meets);
-            if is_reversed {
+            if own.iter().zip(there.iter().rev()).all(meets) {
                 own.iter().zip(there.iter().rev()).for_each(|(a, b)| join(&mut same, *a, *b));
             } else if own.iter().zip(there).all(meets) {
                 own.iter().zip(there).for_each(|(a, b)| join(&mut same, *a, *b));
             } else {
                 continue;
             }
-            sewn.push(Sewn { sides: [one, other].map(|rim| (rim.patch, rim.side)), is_reversed });
+            sewn_sides += 1;
         }
     }
-    sewn.sort_by_key(|sewn| sewn.sides);
     let (names, positions) = renumbered(&all, &same);
-    Welded { pieces, names, positions, sewn }
+    Welded { pieces, names, positions, sewn_sides }
 }
 
 /// The vertices that are sewn to no earlier one, and for each vertex the number of the one that stands for it.
@@ -153,7 +142,7 @@ impl Welded {
         Counts {
             vertices: self.positions.len(),
             triangles: self.pieces.iter().map(|piece| piece.triangles.len()).sum(),
-            sewn_sides: self.sewn.len(),
+            sewn_sides: self.sewn_sides,
         }
     }
 
