@@ -52,7 +52,7 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
 /// Every sample of the recorded files, asked for on the command line with the same rules, is the recorded one.
 #[test]
 fn samples_are_those_of_the_reference_files() {
-    for name in ["polyhedral-cube.json", "polyhedral-open.json"] {
+    for name in ["polyhedral-cube.json", "polyhedral-torus.json", "polyhedral-open.json"] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/fixtures").join(name);
         let file: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
         for case in file["cases"].as_array().unwrap() {

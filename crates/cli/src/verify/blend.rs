@@ -1,6 +1,6 @@
 //! Reference files of blend functions: tables of values on [0, 1], and of the range that widens them.
 
-use super::reader::{Fields, Flaw, Item};
+use super::reader::{Fields, Flaw, Item, recorded};
 use super::report::{Report, Tolerance};
 use super::tolerances::{self, Stated};
 use ductile_patch::{Blend, BlendFunction, Erbs, Range};
@@ -44,17 +44,19 @@ pub(crate) fn check(file: &Fields<'_>, report: &mut Report) -> Result<(), Flaw> 
     let by = tolerances::read(file, STATED, report)?.map(Tolerance::absolute);
     let erbs = Erbs::new();
     if let Some(item) = file.get("inv_phi1") {
-        let recorded = if item.is_text() { item.text()?.trim().parse().ok() } else { Some(item.number()?) };
-        let recorded = recorded.filter(|number: &f64| number.is_finite());
-        let recorded = recorded.ok_or_else(|| item.flaw("a finite number is expected"))?;
-        // The scale in the slope, and how far its integral is from what the scale is for.
-        let found = Erbs::derivative(0.5) * 0.5 / erbs.exact(0.5);
-        report.compare("inv_phi1", &item.place, recorded, found, by[0]);
+        // With more digits than a number has, it is a text.
+        let spelled =
+            item.text().ok().and_then(|text| text.trim().parse().ok()).filter(|x: &f64| x.is_finite());
+        if let Some(number) = recorded(spelled.map_or_else(|| item.number(), Ok), report) {
+            // The scale in the slope, and how far its integral is from what the scale is for.
+            let found = Erbs::derivative(0.5) * 0.5 / erbs.exact(0.5);
+            report.compare("inv_phi1", &item.place, number, found, by[0]);
+        }
     }
-    if let Some(table) = Table::read(file, "columns", "rows")? {
+    if let Some(table) = Table::read(file, "columns", "rows", report)? {
         check_blends(&table, &erbs, by, report)?;
     }
-    if let Some(table) = Table::read(file, "range_columns", "range_rows")? {
+    if let Some(table) = Table::read(file, "range_columns", "range_rows", report)? {
         check_ranges(&table, by[1], report)?;
     }
     Ok(())
@@ -68,7 +70,7 @@ struct Table<'a> {
 }
 
 impl<'a> Table<'a> {
-    fn read(file: &Fields<'a>, columns: &str, rows: &str) -> Result<Option<Self>, Flaw> {
+    fn read(file: &Fields<'a>, columns: &str, rows: &str, report: &mut Report) -> Result<Option<Self>, Flaw> {
         if !file.has(columns) && !file.has(rows) {
             return Ok(None);
         }
@@ -83,11 +85,8 @@ impl<'a> Table<'a> {
         }
         let mut read = Vec::new();
         for row in file.need(rows)?.list()? {
-            let numbers: Vec<Item<'_>> = row.list()?.collect();
-            if numbers.len() != names.len() {
-                return Err(row.flaw(format!("{} numbers in {} columns", numbers.len(), names.len())));
-            }
-            read.push(numbers);
+            let numbers = recorded(row.list_of(names.len(), "numbers", "columns"), report);
+            read.extend(numbers.map(Iterator::collect));
         }
         Ok(Some(Self { columns, names, rows: read }))
     }
@@ -111,7 +110,8 @@ fn check_blends(
     for (at, (name, item)) in table.names.iter().enumerate() {
         let column = column(name);
         for row in &table.rows {
-            let (t, recorded) = (row[parameter].number()?, row[at].number()?);
+            let t = row[parameter].number()?;
+            let Some(number) = recorded(row[at].number(), report) else { continue };
             let (found, by) = match &column {
                 Column::Erbs => (erbs.exact(t), tight),
                 Column::Slope(function) if function.blend() == Blend::Erbs => (function.derivative(t), tight),
@@ -119,7 +119,7 @@ fn check_blends(
                 Column::Value(function) => (function.value(t), others),
                 Column::Parameter | Column::Unknown => continue,
             };
-            report.compare(name, &row[at].place, recorded, found, by);
+            report.compare(name, &row[at].place, number, found, by);
         }
         if matches!(column, Column::Unknown) {
             report.pass_over(&item.place, &format!("no blend function is called `{name}`"));
@@ -143,11 +143,12 @@ fn check_ranges(table: &Table<'_>, by: Tolerance, report: &mut Report) -> Result
             report.pass_over(&item.place, &format!("no function of ranges is called `{name}`"));
         }
         for row in &table.rows {
-            let (number, t, recorded) = (row[given].number()?, row[parameter].number()?, row[at].number()?);
-            let range = if by_range { Range::new(number) } else { Range::of_size(number) };
+            let (reach, t) = (row[given].number()?, row[parameter].number()?);
+            let Some(number) = recorded(row[at].number(), report) else { continue };
+            let range = if by_range { Range::new(reach) } else { Range::of_size(reach) };
             let range = range.map_err(|reason| row[given].flaw(reason.to_string()))?;
             if *name == "R" {
-                report.compare("R", &row[at].place, recorded, range.apply(t), by);
+                report.compare("R", &row[at].place, number, range.apply(t), by);
             }
         }
     }

@@ -5,7 +5,7 @@
 
 use super::family;
 use super::mesh::Mesh;
-use super::reader::{Fields, Flaw, Item};
+use super::reader::{Fields, Flaw, Item, recorded};
 use super::report::{Report, Tolerance};
 use super::rest::{Rested, Scheme, rest};
 use super::tolerances::{self, Stated};
@@ -42,7 +42,7 @@ struct Disc {
 pub(crate) fn check(file: &Fields<'_>, report: &mut Report) -> Result<(), Flaw> {
     let [relative, height, ..] = tolerances::read(file, STATED, report)?;
     let mesh = Mesh::read(file)?;
-    mesh.check_counts(file, report)?;
+    mesh.check_counts(file, report);
     let (fixed, raised) = constraints(&file.need("fixed")?, &mesh)?;
     let radii = file.need("heights_at_radii")?.list()?.map(|radius| radius.number());
     let disc = Disc {
@@ -124,24 +124,31 @@ fn check_case(
         }
     };
     let word = scheme.word();
-    let energy = fields.need("energy")?;
-    report.compare(&format!("{word}: energy"), &energy.place, energy.number()?, rested.energy, disc.energy);
+    check_energy(disc, fields, &rested, word, report);
     check_heights(disc, fields, raise, &rested, word, report)?;
     if let Some(nodes) = fields.get("node_positions") {
         check_positions(disc, &nodes, raise, &rested, word, report)?;
     }
-    if let Some(steps) = fields.get("newton_steps") {
-        let (recorded, found) = (steps.number()?, f64::from(rested.steps));
+    if let Some(steps) = fields.get("newton_steps")
+        && let Some(number) = recorded(steps.number(), report)
+    {
         let quantity = format!("{word}: newton_steps");
-        report.compare(&quantity, &steps.place, recorded, found, Tolerance::absolute(STEPS));
+        let by = Tolerance::absolute(STEPS);
+        report.compare(&quantity, &steps.place, number, f64::from(rested.steps), by);
     }
     Ok(Some((raise, scheme, rested)))
 }
 
+fn check_energy(disc: &Disc, fields: &Fields<'_>, rested: &Rested, word: &str, report: &mut Report) {
+    if let Some(item) = fields.get("energy")
+        && let Some(number) = recorded(item.number(), report)
+    {
+        report.compare(&format!("{word}: energy"), &item.place, number, rested.energy, disc.energy);
+    }
+}
+
 fn check_finer(disc: &Disc, fields: &Fields<'_>, report: &mut Report) -> Result<Option<(f64, Rested)>, Flaw> {
     let (nodes, raise) = (fields.need("nodes")?.count()?, fields.need("raise")?.number()?);
-    let energy = fields.need("energy")?;
-    let recorded = energy.number()?;
     let is_family = |shape: &Workload, like: &Workload| {
         let close = |(a, b): (&DVec3, &DVec3)| a.distance(*b) < 1e-6;
         shape.triangles.len() == like.triangles.len()
@@ -160,7 +167,7 @@ fn check_finer(disc: &Disc, fields: &Fields<'_>, report: &mut Report) -> Result<
             return Ok(None);
         }
     };
-    report.compare("finer: energy", &energy.place, recorded, rested.energy, disc.energy);
+    check_energy(disc, fields, &rested, "finer", report);
     check_heights(disc, fields, raise, &rested, "finer", report)?;
     Ok(Some((raise, rested)))
 }
@@ -174,16 +181,17 @@ fn check_heights(
     report: &mut Report,
 ) -> Result<(), Flaw> {
     let Some(heights) = fields.get("heights") else { return Ok(()) };
-    let list = heights.list()?;
-    if list.len() != disc.radii.len() {
-        return Err(heights.flaw(format!("{} heights for {} radii", list.len(), disc.radii.len())));
-    }
+    let Some(list) = recorded(heights.list_of(disc.radii.len(), "heights", "radii"), report) else {
+        return Ok(());
+    };
     let by = Tolerance::absolute(disc.height * raise.abs());
     for (item, &radius) in list.zip(&disc.radii) {
         let Some(found) = rested.mean_height(radius) else {
             return Err(item.flaw(format!("the surface has no height at the radius {radius}")));
         };
-        report.compare(&format!("{word}: heights"), &item.place, item.number()?, found, by);
+        if let Some(height) = recorded(item.number(), report) {
+            report.compare(&format!("{word}: heights"), &item.place, height, found, by);
+        }
     }
     Ok(())
 }
@@ -200,7 +208,8 @@ fn check_positions(
     for (name, item) in fields.entries() {
         let node = name.parse::<usize>().ok().and_then(|node| rested.shape.positions.get(node));
         let found = node.ok_or_else(|| item.flaw(format!("node {name} does not exist")))?;
-        let deviation = found.distance(item.vector()?);
+        let Some(position) = recorded(item.vector(), report) else { continue };
+        let deviation = found.distance(position);
         report.judge(&format!("{word}: node_positions"), &item.place, deviation, disc.height * raise.abs());
     }
     Ok(())

@@ -2,7 +2,7 @@
 
 use super::family::Family;
 use super::mesh::Mesh;
-use super::reader::{Fields, Flaw, Item};
+use super::reader::{Fields, Flaw, Item, recorded};
 use super::report::{Report, Tolerance};
 use super::smooth::Smooth;
 use ductile_solver::{Curvature, NodeFigures, Settings, SurfaceSolver};
@@ -42,15 +42,14 @@ pub(crate) fn check(file: &Fields<'_>, report: &mut Report) -> Result<(), Flaw> 
 /// A mesh with its sums; says which smooth surface it lies on.
 fn check_mesh(fields: &Fields<'_>, report: &mut Report) -> Result<Option<Smooth>, Flaw> {
     let mesh = Mesh::read(fields)?;
-    mesh.check_counts(fields, report)?;
-    let energy = fields.need("energy")?;
+    mesh.check_counts(fields, report);
     let solver = mesh.solver(vec![false; mesh.positions.len()], Settings::default());
-    let solver = solver.map_err(|reason| energy.flaw(reason))?;
-    report.compare("energy", &energy.place, energy.number()?, solver.energy(), ENERGY);
+    let solver = solver.map_err(|reason| fields.flaw(reason))?;
     let figures = solver.figures();
     let areas = mesh.areas();
     let with_3d_area = figures.iter().zip(&areas).map(|(node, area)| node.density * area).sum::<f64>();
     let sums = [
+        ("energy", solver.energy(), ENERGY),
         ("energy_with_3d_area", with_3d_area, ENERGY),
         ("area_parametric", figures.iter().map(|node| node.area).sum(), AREA),
         ("area_3d", areas.iter().sum(), AREA),
@@ -61,12 +60,15 @@ fn check_mesh(fields: &Fields<'_>, report: &mut Report) -> Result<Option<Smooth>
         ),
     ];
     for (name, found, tolerance) in sums {
-        if let Some(item) = fields.get(name) {
-            report.compare(name, &item.place, item.number()?, found, tolerance);
+        let Some(item) = fields.get(name) else { continue };
+        if let Some(number) = recorded(item.number(), report) {
+            report.compare(name, &item.place, number, found, tolerance);
         }
     }
-    if let Some(item) = fields.get("all_nodes_full_basis") {
-        let is_wrong = item.flag()? != figures.iter().all(|node| node.is_full_basis);
+    if let Some(item) = fields.get("all_nodes_full_basis")
+        && let Some(flag) = recorded(item.flag(), report)
+    {
+        let is_wrong = flag != figures.iter().all(|node| node.is_full_basis);
         report.judge("all_nodes_full_basis", &item.place, f64::from(u8::from(is_wrong)), 0.0);
     }
     let smooth = Smooth::of(&mesh);
@@ -85,15 +87,13 @@ fn check_against_smooth(
 ) -> Result<(), Flaw> {
     for name in ["exact_integral", "relative_error"] {
         let Some(item) = fields.get(name) else { continue };
-        let recorded = item.number()?;
+        let Some(number) = recorded(item.number(), report) else { continue };
         match smooth.map(Smooth::energy) {
-            None => {
-                report.pass_over(&item.place, "the nodes lie on no sphere and on no torus around the z axis")
-            }
+            None => report.pass_over(&item.place, "the nodes lie on no sphere and on no torus"),
             Some(exact) if name == "exact_integral" => {
-                report.compare(name, &item.place, recorded, exact, ENERGY);
+                report.compare(name, &item.place, number, exact, ENERGY);
             }
-            Some(exact) => report.compare(name, &item.place, recorded, energy / exact - 1.0, RELATIVE_ERROR),
+            Some(exact) => report.compare(name, &item.place, number, energy / exact - 1.0, RELATIVE_ERROR),
         }
     }
     Ok(())
@@ -118,13 +118,16 @@ fn check_nodes(
             ("gauss_curvature", curvature.gauss),
         ];
         for (name, found) in values {
-            if let Some(item) = fields.get(name) {
-                report.compare(&format!("node {name}"), &item.place, item.number()?, found, NODE);
+            let Some(item) = fields.get(name) else { continue };
+            if let Some(number) = recorded(item.number(), report) {
+                report.compare(&format!("node {name}"), &item.place, number, found, NODE);
             }
         }
-        if let Some(item) = fields.get("normal_up_to_sign") {
-            let (recorded, found): (DVec3, DVec3) = (item.vector()?, solver.normals()[node]);
-            let deviation = recorded.distance(found).min(recorded.distance(-found));
+        if let Some(item) = fields.get("normal_up_to_sign")
+            && let Some(normal) = recorded(item.vector(), report)
+        {
+            let found: DVec3 = solver.normals()[node];
+            let deviation = normal.distance(found).min(normal.distance(-found));
             report.judge("node normal_up_to_sign", &item.place, deviation, NORMAL);
         }
         fields.finish(report);
@@ -135,16 +138,17 @@ fn check_nodes(
 /// One line of a table: the error of a mesh that its family and its number of nodes define.
 fn check_convergence(fields: &Fields<'_>, smooth: Option<Smooth>, report: &mut Report) -> Result<(), Flaw> {
     let (name, nodes) = (fields.need("family")?, fields.need("nodes")?);
-    let recorded = fields.need("relative_error")?;
-    let (number, family) = (recorded.number()?, Family::named(name.text()?, smooth));
+    let item = fields.need("relative_error")?;
+    let Some(number) = recorded(item.number(), report) else { return Ok(()) };
+    let family = Family::named(name.text()?, smooth);
     let Some((shape, exact)) = family.and_then(|family| family.member(nodes.count().ok()?)) else {
         nodes.count()?;
-        report.pass_over(&recorded.place, "no mesh is known of this family and number of nodes");
+        report.pass_over(&item.place, "no mesh is known of this family and number of nodes");
         return Ok(());
     };
     let mut solver = shape.solver().map_err(|reason| name.flaw(reason.to_string()))?;
     solver.fit_all(&shape.positions);
     let found = solver.energy() / exact - 1.0;
-    report.compare("convergence", &recorded.place, number, found, CONVERGENCE);
+    report.compare("convergence", &item.place, number, found, CONVERGENCE);
     Ok(())
 }

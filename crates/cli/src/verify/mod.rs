@@ -13,6 +13,8 @@ mod family;
 mod gradient;
 pub(crate) mod json;
 mod mesh;
+#[cfg(test)]
+mod mutation_test;
 mod param_map;
 pub(crate) mod reader;
 pub(crate) mod report;

@@ -1,6 +1,6 @@
 //! Reference files of parameter maps: where squares are mapped to in the kites of regular polygons, with derivatives.
 
-use super::reader::{Fields, Flaw, Item};
+use super::reader::{Fields, Flaw, Item, recorded};
 use super::report::{Report, Tolerance};
 use super::rules::map_named;
 use super::tolerances::{self, Stated};
@@ -84,10 +84,10 @@ fn check_map(fields: &Fields<'_>, tolerance: [f64; 2], report: &mut Report) -> R
     };
     let word = name.text()?;
     for row in fields.need("rows")?.list()? {
-        let items: Vec<Item<'_>> = row.list()?.collect();
-        if items.len() != columns.len() {
-            return Err(row.flaw(format!("{} numbers for {} columns", items.len(), columns.len())));
-        }
+        let Some(items) = recorded(row.list_of(columns.len(), "numbers", "columns"), report) else {
+            continue;
+        };
+        let items: Vec<Item<'_>> = items.collect();
         let (u, v) = (items[at_u].number()?, items[at_v].number()?);
         let at = kite(map, n, u, v).ok_or_else(|| row.flaw("the parameters lie outside [0, 1]"))?;
         for (item, &(name, column)) in items.iter().zip(&columns) {
@@ -95,11 +95,11 @@ fn check_map(fields: &Fields<'_>, tolerance: [f64; 2], report: &mut Report) -> R
                 continue;
             };
             let by = tolerance[usize::from(!matches!(column, Column::Value(_)))];
-            let recorded = item.number()?;
+            let Some(number) = recorded(item.number(), report) else { continue };
             match column.of(&at) {
                 Ok(found) => {
                     let quantity = format!("{word}: {name}");
-                    report.compare(&quantity, &item.place, recorded, found, Tolerance::absolute(by));
+                    report.compare(&quantity, &item.place, number, found, Tolerance::absolute(by));
                 }
                 Err(reason) => report.pass_over(&item.place, reason),
             }

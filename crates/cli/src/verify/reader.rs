@@ -14,6 +14,12 @@ pub(crate) struct Flaw {
     what: String,
 }
 
+/// What a file records, or none where that cannot be read: then the report tells what was not checked, and why. Only for results;
+/// without an input there is nothing to compute.
+pub(crate) fn recorded<T>(read: Result<T, Flaw>, report: &mut Report) -> Option<T> {
+    read.map_err(|Flaw { place, what }| report.pass_over(&place, &what)).ok()
+}
+
 /// A value and its place in the file, such as `meshes[0].energy`.
 #[derive(Clone, Debug)]
 pub(crate) struct Item<'a> {
@@ -100,6 +106,21 @@ impl<'a> Item<'a> {
         Ok(list.iter().enumerate().map(move |(at, json)| Item { json, place: format!("{place}[{at}]") }))
     }
 
+    /// A list of as many of one thing as there are of another.
+    pub(crate) fn list_of(
+        &self,
+        count: usize,
+        of_what: &str,
+        for_what: &str,
+    ) -> Result<impl ExactSizeIterator<Item = Self> + use<'a>, Flaw> {
+        let list = self.list()?;
+        if list.len() == count {
+            Ok(list)
+        } else {
+            Err(self.flaw(format!("{} {of_what} for {count} {for_what}", list.len())))
+        }
+    }
+
     /// A list of exactly that many numbers.
     pub(crate) fn numbers<const N: usize>(&self) -> Result<[f64; N], Flaw> {
         let list = self.list()?;
@@ -153,6 +174,12 @@ impl<'a> Fields<'a> {
 
     pub(crate) fn names(&self) -> impl Iterator<Item = &'a str> {
         self.fields.iter().map(|(name, _)| name.as_str())
+    }
+
+    /// The flaw that this object is.
+    pub(crate) fn flaw(&self, what: impl Into<String>) -> Flaw {
+        let place = if self.place.is_empty() { "the file" } else { &self.place };
+        Flaw { place: place.to_owned(), what: what.into() }
     }
 
     /// All fields with their names, which are all marked as read.

@@ -1,5 +1,6 @@
 //! What a verification found: for each quantity the worst deviation beside its tolerance, and what was passed over.
 
+use std::collections::BTreeMap;
 use std::fmt::{self, Write};
 
 /// How far a recomputed number may be from the recorded one.
@@ -44,6 +45,8 @@ impl Row {
 #[derive(Debug, Default)]
 pub(crate) struct Report {
     rows: Vec<Row>,
+    /// The row of each quantity.
+    row_of: BTreeMap<String, usize>,
     passed_over: Vec<(String, String)>,
 }
 
@@ -69,9 +72,11 @@ impl Report {
     /// The same for a deviation that the caller worked out.
     pub(crate) fn judge(&mut self, quantity: &str, place: &str, deviation: f64, allowed: f64) {
         let new = Row { quantity: quantity.into(), compared: 1, deviation, allowed, place: place.into() };
-        let Some(row) = self.rows.iter_mut().find(|row| row.quantity == quantity) else {
+        let Some(&at) = self.row_of.get(quantity) else {
+            self.row_of.insert(quantity.to_owned(), self.rows.len());
             return self.rows.push(new);
         };
+        let row = &mut self.rows[at];
         let compared = row.compared + 1;
         if share(deviation, allowed) > share(row.deviation, row.allowed) {
             *row = new;

@@ -1,7 +1,7 @@
 //! The smooth surface that the nodes of a mesh lie on, where it can be told from the mesh, and its exact energy.
 
 use super::mesh::Mesh;
-use glam::{DMat4, DVec3, DVec4};
+use glam::{DMat3, DMat4, DVec3, DVec4};
 use std::f64::consts::PI;
 
 /// How far a node may lie off the surface, in units of its size: recorded positions are rounded.
@@ -12,7 +12,7 @@ const OFF: f64 = 1e-6;
 pub(crate) enum Smooth {
     /// Any sphere.
     Sphere,
-    /// A torus around the z axis with the radius of its circle of centres and the radius of its tube.
+    /// Any torus, with the radius of its circle of centres and the radius of its tube.
     Torus { major: f64, minor: f64 },
 }
 
@@ -62,18 +62,142 @@ fn is_sphere(positions: &[DVec3]) -> bool {
     positions.iter().all(|p| (((*p - mean) / size).distance(centre) - radius).abs() <= OFF * radius)
 }
 
-/// Linear least squares for `R` and `R² - r²`: `ρ² + z² = 2 R ρ - (R² - r²)`, with `ρ` the distance from the z axis.
+/// Least squares by Gauss and Newton's steps, from the axis in which the nodes lie flattest.
 fn torus(positions: &[DVec3]) -> Option<Smooth> {
     let count = positions.len() as f64;
-    let samples = || positions.iter().map(|p| (p.truncate().length(), p.length_squared()));
-    let (sum_x, sum_y) = samples().fold((0.0, 0.0), |(x, y), (rho, square)| (x + rho, y + square));
-    let (mean_x, mean_y) = (sum_x / count, sum_y / count);
-    let (xx, xy) = samples().fold((0.0, 0.0), |(xx, xy), (rho, square)| {
-        (xx + (rho - mean_x) * (rho - mean_x), xy + (rho - mean_x) * (square - mean_y))
-    });
-    let major = 0.5 * xy / xx;
-    let minor = (major * major - (2.0 * major * mean_x - mean_y)).sqrt();
-    let off = |p: &DVec3| ((p.truncate().length() - major).hypot(p.z) - minor).abs();
-    let fits = minor > 0.0 && major > minor && positions.iter().all(|p| off(p) <= OFF * minor);
-    fits.then_some(Smooth::Torus { major, minor })
+    let mean = positions.iter().sum::<DVec3>() / count;
+    let size = positions.iter().map(|p| p.distance(mean)).fold(0.0, f64::max);
+    let points: Vec<DVec3> = positions.iter().map(|p| (*p - mean) / size).collect();
+    let spread =
+        points.iter().fold(DMat3::ZERO, |sum, p| sum + DMat3::from_cols(*p * p.x, *p * p.y, *p * p.z));
+    // Inverse iteration; a torus is never so flat that its spread has no inverse.
+    let inverse = spread.inverse();
+    let axis =
+        (0..AXIS_STEPS).fold(DVec3::new(0.48, 0.6, 0.64), |axis, _| (inverse * axis).normalize_or_zero());
+    let mut guess = Torus { centre: DVec3::ZERO, axis, major: 0.0, minor: 0.0 };
+    guess.major = points.iter().map(|p| guess.seen(*p).0).sum::<f64>() / count;
+    guess.minor = points.iter().map(|p| guess.off(*p)).sum::<f64>() / count;
+    for _ in 0..FIT_STEPS {
+        guess = guess.nearer(&points)?;
+    }
+    let Torus { major, minor, .. } = guess;
+    let fits = minor > 0.0 && major > minor && points.iter().all(|p| guess.off(*p).abs() <= OFF * minor);
+    fits.then_some(Smooth::Torus { major: major * size, minor: minor * size })
+}
+
+/// Steps towards the flattest direction, and of the fit.
+const AXIS_STEPS: usize = 60;
+const FIT_STEPS: usize = 30;
+
+/// A torus anywhere.
+#[derive(Clone, Copy)]
+struct Torus {
+    centre: DVec3,
+    axis: DVec3,
+    major: f64,
+    minor: f64,
+}
+
+impl Torus {
+    /// Distance from the axis, the direction of it, and the height along the axis.
+    fn seen(&self, p: DVec3) -> (f64, DVec3, f64) {
+        let from = p - self.centre;
+        let height = from.dot(self.axis);
+        let out = from - self.axis * height;
+        (out.length(), out.normalize_or_zero(), height)
+    }
+
+    /// How far outside a point lies.
+    fn off(&self, p: DVec3) -> f64 {
+        let (rho, _, height) = self.seen(p);
+        (rho - self.major).hypot(height) - self.minor
+    }
+
+    /// One step of the fit; none where it is not determined.
+    fn nearer(&self, points: &[DVec3]) -> Option<Self> {
+        let (across, along) = self.axis.any_orthonormal_pair();
+        let mut system = [[0.0; 8]; 7];
+        for p in points {
+            let (rho, out, height) = self.seen(*p);
+            let round = (rho - self.major).hypot(height);
+            let (flat, up) = ((rho - self.major) / round, height / round);
+            let gradient = out * flat + self.axis * up;
+            // When the axis tilts towards a direction, the height grows by the part of the point in it, and the distance falls.
+            let tilt = |to: DVec3| (up * rho - flat * height) * out.dot(to);
+            let row = [-gradient.x, -gradient.y, -gradient.z, tilt(across), tilt(along), -flat, -1.0];
+            for (equation, i) in system.iter_mut().zip(row) {
+                for (entry, j) in equation.iter_mut().zip(row.into_iter().chain([self.minor - round])) {
+                    *entry += i * j;
+                }
+            }
+        }
+        let [x, y, z, a, b, major, minor] = solved(system)?;
+        let step = Self {
+            centre: self.centre + DVec3::new(x, y, z),
+            axis: (self.axis + across * a + along * b).normalize_or_zero(),
+            major: self.major + major,
+            minor: self.minor + minor,
+        };
+        (step.centre.is_finite() && step.major.is_finite() && step.minor.is_finite()).then_some(step)
+    }
+}
+
+/// Gaussian elimination with the largest pivots; none for a singular system. The last column is the right side.
+fn solved(mut system: [[f64; 8]; 7]) -> Option<[f64; 7]> {
+    for k in 0..7 {
+        let pivot = (k..7).max_by(|&i, &j| system[i][k].abs().total_cmp(&system[j][k].abs()))?;
+        system.swap(k, pivot);
+        let own = system[k];
+        if own[k] == 0.0 || !own[k].is_finite() {
+            return None;
+        }
+        for (_, row) in system.iter_mut().enumerate().filter(|(i, _)| *i != k) {
+            let share = row[k] / own[k];
+            row.iter_mut().zip(own).for_each(|(entry, own)| *entry -= share * own);
+        }
+    }
+    Some(std::array::from_fn(|k| system[k][7] / system[k][k]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DQuat;
+
+    /// Points all over a torus, denser on one side of it.
+    fn points(major: f64, minor: f64) -> Vec<DVec3> {
+        let place = |k: u32| {
+            let t = f64::from(k) / 300.0;
+            let ((b, a), (d, c)) = (libm::sincos(6.5 * t * t), libm::sincos(131.0 * t));
+            DVec3::new((major + minor * c) * a, (major + minor * c) * b, minor * d)
+        };
+        (0..300).map(place).collect()
+    }
+
+    #[test]
+    fn a_torus_is_known_wherever_it_lies() {
+        for (major, minor) in [(2.0, 1.0), (3.0, 0.2), (1.1, 1.0), (200.0, 90.0)] {
+            for turn in [DQuat::IDENTITY, DQuat::from_xyzw(0.1, 0.7, -0.5, 0.5).normalize()] {
+                for shift in [DVec3::ZERO, DVec3::new(5.0, -3.0, 0.7)] {
+                    let moved: Vec<DVec3> = points(major, minor).iter().map(|p| turn * *p + shift).collect();
+                    let Some(Smooth::Torus { major: found, minor: tube }) = torus(&moved) else {
+                        panic!("{major} {minor} is no torus")
+                    };
+                    assert!((found / major - 1.0).abs() < 1e-12, "{major} {minor}: {found}");
+                    assert!((tube / minor - 1.0).abs() < 1e-12, "{major} {minor}: {tube}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_nearly_a_torus_is_none() {
+        let bent: Vec<DVec3> = points(2.0, 1.0).iter().map(|p| *p + DVec3::Z * (1e-4 * p.x * p.x)).collect();
+        assert_eq!(torus(&bent), None);
+        let long: Vec<DVec3> = points(2.0, 1.0).iter().map(|p| *p * DVec3::new(1.01, 1.0, 1.0)).collect();
+        assert_eq!(torus(&long), None);
+        assert_eq!(torus(&[DVec3::ZERO; 20]), None);
+        let flat: Vec<DVec3> = points(2.0, 1.0).iter().map(|p| p.with_z(0.0)).collect();
+        assert_eq!(torus(&flat), None);
+    }
 }

@@ -139,14 +139,29 @@ fn what_no_rule_covers_is_told() {
 }
 
 #[test]
+fn results_that_cannot_be_read_are_told_beside_the_others() {
+    let told = |name: &str, says: &str, pointer: &str, value: Value| {
+        with(name, 1, &format!("not checked: {says}"), pointer, value);
+    };
+    told(BLENDS, "rows[4]: 1 numbers for 7 columns", "/rows/4", json!([0.5]));
+    told(BLENDS, "rows[4][2]: a finite number", "/rows/4/2", json!(null));
+    told(BLENDS, "range_rows[4][2]: a finite number", "/range_rows/4/2", json!("NaN"));
+    told(BLENDS, "inv_phi1: a finite number", "/inv_phi1", json!("about 1.66"));
+    let foot = "cases[0].feet[0]";
+    told(GRID, &format!("{foot}.green: 3 numbers for 76"), "/cases/0/feet/0/green", json!([1, 2, 3]));
+    told(GRID, &format!("{foot}.harmonic_raw[4]: a finite"), "/cases/0/feet/0/harmonic_raw/4", json!(null));
+    let offsets = "/cases/0/multi/plain_sum_offsets";
+    told(GRID, "cases[0].multi.plain_sum_offsets: 0 offsets for 76", offsets, json!([]));
+    told(GRID, "cases[0].multi.plain_sum_offsets[3]: 3 num", &format!("{offsets}/3"), json!([1]));
+}
+
+#[test]
 fn what_cannot_be_read_names_its_place() {
     let blends = |says: &str, pointer: &str, value: Value| with(BLENDS, 2, says, pointer, value);
-    blends("rows[4]: 1 numbers in 7 columns", "/rows/4", json!([0.5]));
-    blends("rows[4][2]: a finite number", "/rows/4/2", json!(null));
+    blends("rows[4][0]: a finite number", "/rows/4/0", json!(null));
     blends("columns: no column is called `t`", "/columns/0", json!("u"));
     blends("columns[2]: there are two columns `erbs`", "/columns/2", json!("erbs"));
     blends("range_rows[5][0]: the range 1 is not", "/range_rows/5/0", json!(1.0));
-    blends("inv_phi1: a finite number", "/inv_phi1", json!("about 1.66"));
     blends("tolerance.erbs: 1 is no sensible tolerance", "/tolerance/erbs", json!(1.0));
     let grid = |says: &str, pointer: &str, value: Value| with(GRID, 2, says, pointer, value);
     grid("cases[0].vertices[3]: 3 numbers are expected", "/cases/0/vertices/3", json!([1]));
@@ -160,7 +175,6 @@ fn what_cannot_be_read_names_its_place() {
     grid("cases[0].feet[0].foot: vertex 0 is held", "/cases/0/boundary/2", json!(0));
     grid("neither boundary nor pin", "/cases/0/boundary", json!([]));
     grid("cases[0].feet[0].foot: 0.5 is no vertex", "/cases/0/feet/0/foot", json!(0.5));
-    grid("3 numbers for 76 vertices", "/cases/0/feet/0/green", json!([1, 2, 3]));
     grid("the range 1 is not", "/cases/0/feet/0/blend_harmonic/0/range", json!(1));
     grid("cases[0].multi.ranges: 2 ranges for 3 feet", "/cases/0/multi/ranges", json!([0, 0]));
     grid(

@@ -1,6 +1,6 @@
 //! One recorded sample of a patch: where it lies, what the coordinates are there, the point and the normal.
 
-use super::super::reader::{Fields, Flaw, Item};
+use super::super::reader::{Fields, Flaw, Item, recorded};
 use super::super::report::Report;
 use super::{Filled, angle};
 use glam::DVec2;
@@ -26,18 +26,20 @@ pub(super) fn check(
     };
     let mut is_compared = false;
     if let Some(point) = sample.get("point") {
-        let deviation = point.vector()?.distance(found.point);
-        report.judge(&format!("{}point", filled.word), &point.place, deviation, filled.within.point);
         is_compared = true;
+        if let Some(place) = recorded(point.vector(), report) {
+            let deviation = place.distance(found.point);
+            report.judge(&format!("{}point", filled.word), &point.place, deviation, filled.within.point);
+        }
     }
     if let Some(normal) = sample.get("normal") {
-        let recorded = normal.vector()?;
-        // Direction and length: a recorded normal is a unit vector.
-        let deviation = found
-            .normal()
-            .map_or(f64::NAN, |found| angle(found, recorded).max((recorded.length() - 1.0).abs()));
-        report.judge(&format!("{}normal", filled.word), &normal.place, deviation, filled.within.normal);
         is_compared = true;
+        if let Some(told) = recorded(normal.vector(), report) {
+            // Direction and length: a recorded normal is a unit vector.
+            let deviation =
+                found.normal().map_or(f64::NAN, |found| angle(found, told).max((told.length() - 1.0).abs()));
+            report.judge(&format!("{}normal", filled.word), &normal.place, deviation, filled.within.normal);
+        }
     }
     if !is_compared {
         report.pass_over(&item.place, "it records neither a point nor a normal");
