@@ -192,10 +192,7 @@ fn act(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result<(), ModelErr
         | Edit::SplitEdge { .. }
         | Edit::SplitFace { .. }
         | Edit::Rim { .. } => act_on_cage(model, edit),
-        Edit::Rename { name } => {
-            model.document_mut().name.clone_from(name);
-            Ok(model.document.validate()?)
-        }
+        Edit::Rename { name } => rename(model, name),
         // Done by `displacing`.
         Edit::Displace { .. }
         | Edit::ChangeDisplacement { .. }
@@ -206,6 +203,11 @@ fn act(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result<(), ModelErr
         | Edit::Bake { .. }
         | Edit::Shadow { .. } => Ok(()),
     }
+}
+
+fn rename(model: &mut Model, name: &str) -> Result<(), ModelError> {
+    name.clone_into(&mut model.document_mut().name);
+    Ok(model.document.validate()?)
 }
 
 /// The acts on cages.

@@ -107,6 +107,29 @@ fn unknown(sides: usize, d: usize, side: usize, column: usize) -> Option<usize> 
     }
 }
 
+/// Adds one equation to the normal ones: the sum of weighted points along a direction is known.
+fn weigh_in(
+    entries: &mut Vec<(usize, usize, f64)>,
+    right: &mut [f64],
+    (free, direction): (&[(usize, f64)], DVec3),
+    share: f64,
+    known: f64,
+) {
+    for &(row, weight) in free {
+        for (i, along) in direction.to_array().into_iter().enumerate() {
+            let own = share * weight * along;
+            right[3 * row + i] += own * known;
+            for &(column, other) in free {
+                for (j, beside) in direction.to_array().into_iter().enumerate() {
+                    if 3 * column + j <= 3 * row + i {
+                        entries.push((3 * row + i, 3 * column + j, own * other * beside));
+                    }
+                }
+            }
+        }
+    }
+}
+
 /// Moves the free points of all rows 1 into the planes, and leaves them at their defaults where planes do not care.
 fn meet(ribbons: &mut [Ribbon], planes: &[PlaneSample]) {
     let (sides, d) = (ribbons.len(), ribbons[0].degree());
@@ -143,20 +166,7 @@ fn meet(ribbons: &mut [Ribbon], planes: &[PlaneSample]) {
                     None => known -= weight * (ribbon.row1[column] - origin).dot(direction),
                 }
             }
-            let n = direction.to_array();
-            for &(row, weight) in &free {
-                for i in 0..3 {
-                    let own = share * weight * n[i];
-                    right[3 * row + i] += own * known;
-                    for &(column, other) in &free {
-                        for j in 0..3 {
-                            if 3 * column + j <= 3 * row + i {
-                                entries.push((3 * row + i, 3 * column + j, own * other * n[j]));
-                            }
-                        }
-                    }
-                }
-            }
+            weigh_in(&mut entries, &mut right, (&free, direction), share, known);
         }
     }
     // Every unknown has its default, so the matrix is positive definite; if rounding says otherwise, defaults stay.
@@ -238,7 +248,7 @@ mod tests {
             let leaning: Vec<PlaneSample> = planes
                 .iter()
                 .map(|plane| {
-                    let along = plain.ribbons[plane.side].tangent(plane.u).normalize();
+                    let along = plain.ribbons[plane.side].tangent(plane.u).normalize_or_zero();
                     let (sin, cos) = libm::sincos(most * 4.0 * plane.u * (1.0 - plane.u));
                     PlaneSample { normal: plane.normal * cos + along.cross(plane.normal) * sin, ..*plane }
                 })
@@ -248,7 +258,7 @@ mod tests {
             for (side, ribbon) in found.ribbons.ribbons().iter().enumerate() {
                 for u in [0.25, 0.5, 0.75] {
                     let across = |ribbon: &Ribbon| {
-                        let along = ribbon.tangent(u).normalize();
+                        let along = ribbon.tangent(u).normalize_or_zero();
                         (ribbon.cross(u) - along * along.dot(ribbon.cross(u))).length()
                     };
                     let share = across(ribbon) / across(&plain.ribbons()[side]);
