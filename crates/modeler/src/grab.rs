@@ -11,6 +11,7 @@ use crate::model::Model;
 use crate::operation::{insert, kept_position, pin};
 use crate::patch::caged;
 use crate::relax::Relaxer;
+use crate::skeleton::carry_free;
 use ductile_spec::{GrabTarget, Handle, MAX_COORDINATE, PointId};
 use glam::DVec3;
 
@@ -207,6 +208,7 @@ impl Grab {
             let kept = kept_position(&self.before, model.point(*point)?)?;
             model.document_mut().points.insert(*point, kept);
         }
+        carry_free(&self.home.document, model.document_mut());
         model.check_extents()?;
         // What it leaves could be opened again, but not be filled.
         for fill in model.document.fills.keys().filter(|fill| self.before.check_fill(**fill).is_ok()) {

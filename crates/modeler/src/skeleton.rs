@@ -4,12 +4,16 @@
 //! curves together; that of a surface which was edited on screen is its mesh with everything inessential
 //! taken out ("dehydrated", thesis section 5.2).
 
+mod carry;
+
 use crate::model::{Model, round_to_digits};
 use crate::shape::SurfaceShape;
 
 use ductile_mesh::{Dehydrated, Mesh, VertexId, dehydrate};
 use ductile_spec::{CurveId, Embedding, PointId, Skeleton, SkeletonVertex};
 use glam::DVec3;
+
+pub(crate) use carry::carry_free;
 
 /// Above this many boundary points the cubic search is replaced by a zigzag.
 const MOST_SEARCHED: usize = 250;

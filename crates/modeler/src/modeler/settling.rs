@@ -5,6 +5,7 @@ use super::Modeler;
 use crate::density;
 use crate::model::{Making, Model};
 use crate::settle::{Hidden, MOST_NODES, Settling, Slide};
+use crate::skeleton::carry_free;
 use ductile_spec::{Document, Request};
 
 impl Modeler {
@@ -118,7 +119,8 @@ impl Modeler {
 /// document's own shape did not come to rest with before. Other acts change skeletons: what such a one opens to often rests
 /// less well than the mesh on which it was made. So do meshes of several densities, which an opening can only guess.
 pub(super) fn worked(before: &Model, now: &Model) -> Making {
-    let moved = Document { points: now.document.points.clone(), ..(*before.document).clone() };
+    let mut moved = Document { points: now.document.points.clone(), ..(*before.document).clone() };
+    carry_free(&before.document, &mut moved);
     let has_only_moved =
         moved == *now.document && before.document.points.keys().eq(now.document.points.keys());
     let can_settle = before.making != Making::Kept && has_only_moved && density::graded(now).is_empty();

@@ -53,7 +53,8 @@ use crate::model::Model;
 use crate::patch;
 use crate::relax::Relaxer;
 use crate::shape::SurfaceShape;
-use ductile_spec::{Edit, MAX_COORDINATE, PointId, SurfaceId};
+use crate::skeleton::carry_free;
+use ductile_spec::{Document, Edit, MAX_COORDINATE, PointId, SurfaceId};
 use glam::DVec3;
 use std::sync::Arc;
 
@@ -85,7 +86,11 @@ pub(crate) fn apply(
     }
     let before = (!model.document.fills.is_empty()).then(|| model.clone());
     let were_closed = outward::closed(model);
+    let was = Arc::clone(&model.document);
     act(model, relaxer, edit)?;
+    if was.points != model.document.points {
+        carry_free(&was, model.document_mut());
+    }
     outward::turn(model, &were_closed)?;
     shadow::forget_lost(model);
     if model.document.surfaces.values().flat_map(|surface| &surface.regions).any(|r| r.shadow.is_some()) {
@@ -228,10 +233,15 @@ fn act_on_cage(model: &mut Model, edit: &Edit) -> Result<(), ModelError> {
 
 /// The position that a document keeps for one that was pointed at.
 pub(crate) fn kept_position(model: &Model, at: DVec3) -> Result<DVec3, ModelError> {
+    kept_in(&model.document, at)
+}
+
+/// As [`kept_position`].
+pub(crate) fn kept_in(document: &Document, at: DVec3) -> Result<DVec3, ModelError> {
     if !at.to_array().iter().all(|x| x.is_finite() && x.abs() <= MAX_COORDINATE) {
         return Err(ModelError::BadPosition);
     }
-    let (_, radius) = model.document.extent();
+    let (_, radius) = document.extent();
     let radius = if radius > 0.0 { radius } else { 1.0 };
     let exponent: i32 = format!("{radius:e}").split_once('e').and_then(|(_, e)| e.parse().ok()).unwrap_or(0);
     let decimals = usize::try_from((POSITION_DIGITS - exponent).clamp(0, 15)).unwrap_or(0);
