@@ -1,5 +1,6 @@
 //! How well surfaces meet along the curves that they share: every pair of surfaces of whatever kind that end at, or run through, the
-//! same stretch, compared at the samples of the curve.
+//! same stretch, compared at the samples of the curve. Where a side of one fill runs along two of others (a T-junction), each part
+//! that two of them share is a seam.
 //!
 //! Of the rim of a surface over a cage or of a mesh that no curve follows to the bit, what is known is the tessellation: place and normal
 //! of the nearest place at its rim. Curvatures are not compared there.
@@ -77,6 +78,13 @@ pub(crate) fn seams(model: &Model, relaxer: &Relaxer) -> Seams {
             }
         }
     }
+    found.extend(
+        parts(model, &banks)
+            .iter()
+            .filter_map(|&(part, one, other)| compared(model, relaxer, part, one, other)),
+    );
+    // In the order of the stretches, and for each in that of the surfaces above.
+    found.sort_by_key(|seam| seam.stretch);
     let fills = model.document.fills.keys();
     let fills = fills.filter_map(|id| Some(fill::shape(model, *id)?.figures(*id))).collect();
     Seams { seams: found, fills }
@@ -105,6 +113,49 @@ fn gone_on_from(model: &Model) -> BTreeSet<(SurfaceId, CurveId)> {
             document.curves.get(curve).is_some_and(|curve| curve.rim != Some(*surface))
         })
         .collect()
+}
+
+/// The parts of stretches that sides of two fills share where their stretches are not the same.
+fn parts<'a>(
+    model: &Model,
+    banks: &BTreeMap<CurveStretch, Vec<Bank<'a>>>,
+) -> Vec<(CurveStretch, Bank<'a>, Bank<'a>)> {
+    let of_fills = |banks: &[Bank<'a>]| -> Vec<(Bank<'a>, &'a Drawn)> {
+        let side = |bank: &Bank<'a>| match *bank {
+            Bank::Fill(.., side) => Some((*bank, &side.drawn)),
+            _ => None,
+        };
+        banks.iter().filter_map(side).collect()
+    };
+    let mut found = Vec::new();
+    for (at, (stretch, one)) in banks.iter().enumerate() {
+        let Some(curve) = model.curves.get(&stretch.curve) else { continue };
+        let rest = banks.iter().skip(at + 1).take_while(|(other, _)| other.curve == stretch.curve);
+        for (_, other) in rest {
+            for (a, own) in of_fills(one) {
+                for (b, there) in of_fills(other) {
+                    let shared = shared(own, there, curve.nodes.len());
+                    // The surface of the lower number comes first, as it does where stretches are the same.
+                    let (a, b) = if b.surface() < a.surface() { (b, a) } else { (a, b) };
+                    found.extend(shared.into_iter().map(|part| (part, a, b)));
+                }
+            }
+        }
+    }
+    found
+}
+
+/// What two stretches of a curve of so many samples have in common: nothing, one part, or two on a closed curve.
+pub(crate) fn shared(one: &Drawn, other: &Drawn, count: usize) -> Vec<CurveStretch> {
+    // How many edges are left of a stretch from a sample within it.
+    let left = |of: &Drawn, sample: usize| of.edges.checked_sub((sample + count - of.first) % count);
+    let part = |start: &Drawn| {
+        let ends = [(left(one, start.first)?, one.stretch.to), (left(other, start.first)?, other.stretch.to)];
+        let (edges, to) = if ends[1].0 < ends[0].0 { ends[1] } else { ends[0] };
+        (edges > 0).then_some(CurveStretch { curve: one.stretch.curve, from: start.stretch.from, to })
+    };
+    let of_other = if other.first == one.first { None } else { part(other) };
+    part(one).into_iter().chain(of_other).collect()
 }
 
 fn compared(
@@ -171,8 +222,10 @@ fn point(
         }
         Bank::Fill(id, at, side) => {
             let built = fill::shape(model, id)?.built.as_ref()?;
-            let Drawn { steps, edges, .. } = side.drawn;
-            let whole = edge.min(edges);
+            let Drawn { steps, edges, first: own, stretch, .. } = side.drawn;
+            let count = model.curves.get(&stretch.curve)?.nodes.len();
+            // The seam may begin within the side.
+            let whole = (edge + (first + count - own) % count).min(edges);
             let low = side.parameter_of_sample(whole);
             let high = side.parameter_of_sample((whole + 1).min(edges));
             debug_assert!(steps > 0, "an edge is cut into steps");

@@ -386,3 +386,67 @@ fn one_of_two_fills_that_join_smoothly_is_not_baked_alone() {
     // Curves that rested rest a little better.
     assert!(moved < 1e-6, "{moved:e}");
 }
+
+/// A square over the whole of a curve, and two below its halves.
+#[test]
+fn a_long_side_meets_two_short_ones() {
+    let mut modeler = Modeler::new();
+    let place = |x: f64, y: f64| [x, y, 0.1 * x * (2.0 - x) - 0.2 * y * x];
+    let [a, b, c] = [0.0, 1.0, 2.0].map(|x| point(&mut modeler, place(x, 0.0)));
+    let [d, e, f] = [0.0, 1.0, 2.0].map(|x| point(&mut modeler, place(x, -1.0)));
+    let [g, h] = [0.0, 2.0].map(|x| point(&mut modeler, place(x, 1.5)));
+    let long = curve(&mut modeler, [a, b, c].map(Through::Point).to_vec());
+    let bulge = DVec3::new(0.0, 0.0, 0.1);
+    let arcs: Vec<CurveId> = [(a, d), (d, e), (b, e), (e, f), (f, c), (c, h), (h, g), (g, a)]
+        .map(|(from, to)| arc(&mut modeler, from, to, bulge))
+        .to_vec();
+    rest(&mut modeler);
+    for near_to in [arcs[1], arcs[3], arcs[6]] {
+        edit(&mut modeler, near(near_to));
+    }
+    rest(&mut modeler);
+    let found = seams(&mut modeler);
+    assert!(modeler.model().document.fills.values().all(|fill| fill.sides.len() == 4));
+    let along: Vec<_> = found
+        .seams
+        .iter()
+        .filter(|seam| seam.stretch.curve == long)
+        .map(|seam| ((seam.stretch.from, seam.stretch.to), seam.surfaces.map(|id| id.0)))
+        .collect();
+    assert_eq!(along, [((a, b), [1, 3]), ((b, c), [2, 3])]);
+    for seam in found.seams.iter().filter(|seam| seam.stretch.curve == long) {
+        // The sides are fitted each by itself, so they are near and not one; and they were given no common planes.
+        println!("{seam:?}");
+        assert!(seam.gap > 0.0 && seam.gap < 1e-2 && seam.angle > 0.0 && seam.angle < 45.0, "{seam:?}");
+        assert!(seam.places > 8 && seam.without_normal == 0, "{seam:?}");
+    }
+}
+
+#[test]
+fn parts_of_a_curve_that_two_stretches_share() {
+    let (mut modeler, _, curves) = pentagon();
+    edit(&mut modeler, near(curves[0]));
+    let drawn = |first: usize, edges: usize, from: u32, to: u32| {
+        let side = &*modeler.model().patches[&SurfaceId(1)];
+        let PatchShape::Fill(shape) = side else { panic!("no fill") };
+        let mut drawn = shape.sides[0].drawn.clone();
+        drawn.stretch = CurveStretch { curve: CurveId(9), from: PointId(from), to: PointId(to) };
+        (drawn.first, drawn.edges) = (first, edges);
+        drawn
+    };
+    let shared = |one, other| {
+        let parts = crate::seams::shared(&one, &other, 20);
+        parts.iter().map(|part| (part.from.0, part.to.0)).collect::<Vec<_>>()
+    };
+    let whole = || drawn(0, 19, 1, 5);
+    assert_eq!(shared(whole(), drawn(0, 8, 1, 3)), [(1, 3)]);
+    assert_eq!(shared(drawn(8, 11, 3, 5), whole()), [(3, 5)]);
+    assert_eq!(shared(whole(), drawn(4, 8, 2, 4)), [(2, 4)]);
+    assert_eq!(shared(drawn(0, 12, 1, 4), drawn(4, 15, 2, 5)), [(2, 4)]);
+    // What only touches shares nothing.
+    assert_eq!(shared(drawn(0, 8, 1, 3), drawn(8, 11, 3, 5)), []);
+    assert_eq!(shared(drawn(8, 11, 3, 5), drawn(0, 8, 1, 3)), []);
+    // Round a closed curve of twenty samples two arcs meet twice.
+    assert_eq!(shared(drawn(0, 12, 1, 4), drawn(8, 16, 3, 2)), [(1, 2), (3, 4)]);
+    assert_eq!(shared(drawn(15, 10, 7, 2), drawn(0, 8, 1, 3)), [(1, 2)]);
+}
