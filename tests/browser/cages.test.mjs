@@ -2,8 +2,9 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { atRest, choose, distance, documentOf, drawn, point, wide } from "./support/model.mjs";
+import { atRest, choose, distance, documentOf, drawn, picture, point, wide } from "./support/model.mjs";
 import { inspect, open, untilInspect, withPage } from "./support/page.mjs";
+import { difference } from "./support/pixels.mjs";
 import { drag } from "./support/pointer.mjs";
 
 const context = { permissions: ["clipboard-read", "clipboard-write"] };
@@ -141,6 +142,63 @@ test("a cage is placed, its vertices, faces and edges are dragged and changed, a
     await session.close();
   }
 });
+
+test("a face is split between two of its corners; what divides nothing is refused with its reason", async () => {
+  await withPage({ viewport: wide }, async (page) => {
+    await begun(page);
+    const cube = await place(page, "Cube");
+    const { faces } = JSON.parse(cube.document).cages[1];
+    const first = inFront(cube);
+    await page.keyboard.press("x");
+    await untilInspect(page, ({ tool }) => tool === "divide");
+    await hover(page, point(cube, first).screen, new RegExp(`^point ${first}$`));
+    await page.mouse.click(...point(cube, first).screen);
+    // From there a diagonal of each of the three faces could be taken.
+    const begins = await untilInspect(page, ({ underWay, marked }) => underWay && marked.lines === 3);
+    assert.equal(begins.document, cube.document);
+    const face = faces.find((corners) => corners.includes(first));
+    const at = face.indexOf(first);
+    const [beside, across] = [1, 2].map((step) => face[(at + step) % 4]);
+
+    // A neighbour is no choice: it is not marked, and a click says why.
+    await page.mouse.move(...point(cube, beside).screen);
+    await drawn(page);
+    const over = await untilInspect(page, ({ hover }) => hover === null);
+    assert.equal(over.marked.parts, 0);
+    await page.mouse.click(...point(cube, beside).screen);
+    const refused = await untilInspect(page, ({ toast }) => /An edge joins these corners already/.test(toast ?? ""));
+    assert.deepEqual([refused.document, refused.underWay], [cube.document, true]);
+
+    // Escape lets the corner go, and then goes back to the tool of cages.
+    await page.keyboard.press("Escape");
+    await untilInspect(page, ({ tool, underWay }) => tool === "divide" && !underWay);
+    await page.keyboard.press("Escape");
+    await untilInspect(page, ({ tool }) => tool === "cage");
+    // The button begins at the selected vertex.
+    await page.locator(`#scene-list [data-subject="point ${first}"]`).click();
+    await page.locator("#divide").click();
+    await untilInspect(page, ({ tool, underWay }) => tool === "divide" && underWay);
+    const plain = await picture(page);
+    await hover(page, point(cube, across).screen, new RegExp(`^point ${across}$`));
+    await untilInspect(page, ({ marked }) => marked.parts === 1);
+    assert.ok(difference(plain, await picture(page)) > 0.0005, "the new edge is shown");
+    await page.mouse.click(...point(cube, across).screen);
+    const split = await atRest(page, ({ act }) => act === "Split face");
+    const now = JSON.parse(split.document).cages[1].faces;
+    assert.equal(now.length, 7);
+    assert.equal(now.filter((corners) => corners.length === 3 && corners.includes(first) && corners.includes(across)).length, 2);
+    assert.equal(split.points.length, 8, "no vertex was made");
+    assert.equal(split.tool, "divide", "the tool stays");
+    await page.keyboard.press("Control+z");
+    const back = await atRest(page, ({ act }) => act === "Undo Split face");
+    assert.equal(back.document, cube.document);
+  });
+});
+
+/** The vertex that is nearest to the eye. */
+function inFront({ points, camera }) {
+  return points.reduce((a, b) => (distance(b.at, camera.eye) < distance(a.at, camera.eye) ? b : a)).id;
+}
 
 /** A face of the cage at a vertex that can be pointed at in its middle. */
 async function faceInSight(page, state, vertex) {

@@ -2,10 +2,11 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { assertOnCanvas, atRest, distance, drawn, onBareSurface, picture, pointAway, wide } from "./support/model.mjs";
+import { assertOnCanvas, atRest, distance, drawn, onBareSurface, picture, pointAway, wide, withDocument } from "./support/model.mjs";
 import { inspect, open, until, untilInspect, withPage } from "./support/page.mjs";
 import { difference } from "./support/pixels.mjs";
 import { drag } from "./support/pointer.mjs";
+import { ringedDisc } from "./support/rings.mjs";
 
 const context = { permissions: ["clipboard-read", "clipboard-write"] };
 /** Pixels by which a foot may miss the pointer. */
@@ -114,6 +115,126 @@ test("a foot is taken again, changed by numbers, erased; all are dropped", async
     await page.locator("#view").focus();
     await page.keyboard.press("Escape");
     await untilInspect(page, ({ tool }) => tool === "shape");
+  });
+});
+
+test("a curve inside a surface is dragged as a whole, taken again anywhere, and its rim is no foot", async () => {
+  await withDocument(ringedDisc, async (page, before) => {
+    const seen = await picture(page);
+    const [rim, ring] = [1, 2].map((id) => before.curves.find((curve) => curve.id === id).screen);
+    const front = (places) => places.reduce((a, b) => (b[1] > a[1] ? b : a));
+    await page.keyboard.press("e");
+    await page.mouse.move(...front(ring));
+    await untilInspect(page, ({ hover, marked }) => hover === "curve 2" && marked.lines > 8);
+    // The rim stays where it is: over it, what the tool takes is the surface, or nothing.
+    await page.mouse.move(...front(rim));
+    await untilInspect(page, ({ hover }) => hover !== "curve 1" && hover !== "curve 2");
+
+    const from = front(ring);
+    const by = [6, -70];
+    const to = from.map((x, axis) => x + by[axis]);
+    await drag(page, from, to, {
+      async beforeRelease() {
+        const state = await untilInspect(page, ({ feet }) => feet.length === 1 && feet[0].places > 16);
+        assert.equal(state.document, before.document, "nothing is committed before the release");
+      },
+    });
+    await pointAway(page);
+    const raised = await atRest(page, ({ act }) => act === "Displace");
+    const [item] = displacedOf(raised).items;
+    assert.deepEqual(item.foot, { along: 2 });
+    assert.ok(Math.hypot(...item.by) > 0.2, `${item.by}`);
+    assert.equal(raised.points.length, before.points.length, "no control was made");
+    assert.ok(difference(seen, await picture(page)) > 0.02, "the ring stands up");
+    // The first place of the curve has moved by the vector that the document says.
+    const first = before.curves[1].at[0];
+    assert.ok(distance(first.map((x, axis) => x + item.by[axis]), foot(raised, 1).at) < 0.01);
+
+    // Elsewhere on the raised curve it is taken again; Escape puts that back.
+    await page.mouse.move(...to);
+    const over = await untilInspect(page, ({ marked, hover }) => hover !== null && marked.lines === 1);
+    assert.equal(over.feet[0].places > 16, true);
+    await page.mouse.down();
+    await page.mouse.move(to[0], to[1] - 40, { steps: 6 });
+    await untilInspect(page, (state) => distance(foot(state, 1).screen, foot(raised, 1).screen) > 20);
+    await page.keyboard.press("Escape");
+    await page.mouse.up();
+    const given = await atRest(page, (state) => distance(foot(state, 1).screen, foot(raised, 1).screen) < exactly);
+    assert.equal(given.document, raised.document);
+    await drag(page, to, [to[0], to[1] - 30]);
+    const higher = await atRest(page, ({ act }) => act === "Change displacement");
+    assert.deepEqual(displacedOf(higher).items[0].foot, { along: 2 });
+    assert.ok(displacedOf(higher).items[0].by[2] > item.by[2] + 0.05);
+
+    // Its numbers are those of any displacement.
+    await page.locator("#displaced-z").fill("0.3");
+    await page.locator("#displaced-z").press("Enter");
+    await atRest(page, (state) => displacedOf(state).items[0].by[2] === 0.3);
+    for (let acts = 3; acts > 0; acts -= 1) {
+      const { document } = await inspect(page);
+      await page.locator("#undo").click();
+      await atRest(page, (state) => state.document !== document);
+    }
+    assert.equal((await inspect(page)).document, before.document);
+  });
+});
+
+test("a displacement reaches further along a direction, before it is made and after", async () => {
+  await withPage({ viewport: wide }, async (page) => {
+    const before = await atRest(page);
+    const [from, to] = onBareSurface(before);
+    await page.keyboard.press("e");
+    await page.mouse.move(...from);
+    await untilInspect(page, ({ marked }) => marked.lines > 8);
+    const round = await picture(page);
+    assert.equal(await page.locator("#reach-along").isVisible(), false, "all round there is no direction");
+    const type = async (id, text) => {
+      await page.locator(`#${id}`).fill(text);
+      await page.locator(`#${id}`).press("Enter");
+    };
+    await type("reach-times", "4");
+    await page.locator("#reach-along").waitFor({ state: "visible" });
+    await value(page, "reach-x", "1");
+    await page.mouse.move(...from);
+    await untilInspect(page, ({ marked, settled }) => settled && marked.lines > 8);
+    await drawn(page);
+    const long = await picture(page);
+    assert.ok(difference(round, long) > 0.001, "the line is another one");
+    await type("reach-y", "1");
+    await type("reach-x", "0");
+    await type("reach-y", "0");
+    await untilInspect(page, () => true);
+    assert.match(await page.locator("#number-error").textContent(), /A direction has a length/);
+    await page.locator("#reach-y").press("Escape");
+    await value(page, "reach-y", "1");
+    await type("reach-times", "100");
+    assert.match(await page.locator("#number-error").textContent(), /between 1\/64 and 64/);
+    await type("reach-times", "3");
+
+    await drag(page, from, to);
+    const made = await atRest(page, ({ act }) => act === "Displace");
+    assert.deepEqual(displacedOf(made).items[0].direction, { along: [0, 1, 0], times: 3 });
+    // The chosen one shows how far it reaches while nothing is pointed at, and its numbers.
+    await page.mouse.move(80, 300);
+    await untilInspect(page, ({ hover, marked }) => hover === null && marked.lines > 4);
+    await value(page, "displaced-times", "3");
+    await value(page, "displaced-along-y", "1");
+    const seen = await picture(page);
+    await type("displaced-along-x", "2");
+    const turned = await atRest(page, ({ act }) => act === "Change displacement");
+    assert.deepEqual(displacedOf(turned).items[0].direction, { along: [2, 1, 0], times: 3 });
+    await page.mouse.move(80, 300);
+    assert.ok(difference(seen, await picture(page)) > 0.005, "the shape is another one");
+    await type("displaced-times", "1");
+    const all = await atRest(page, (state) => displacedOf(state).items[0].direction === undefined);
+    assert.notEqual(all.document, turned.document);
+    await page.locator("#displaced-along").waitFor({ state: "hidden" });
+    for (let acts = 3; acts > 0; acts -= 1) {
+      const { document } = await inspect(page);
+      await page.locator("#undo").click();
+      await atRest(page, (state) => state.document !== document);
+    }
+    assert.equal((await inspect(page)).document, before.document);
   });
 });
 

@@ -66,6 +66,24 @@ test("a loop is shown under the pointer and filled by a click; how it is filled 
   });
 });
 
+test("a rim that a bulging patch hides is taken where none is in sight, by the tool that is about rims", async () => {
+  const bulging = pentagon("Bulge");
+  const side = (k) => ({ curve: k, from: k, to: (k % 5) + 1 });
+  bulging.fills = { 1: { sides: [1, 2, 3, 4, 5].map(side) } };
+  bulging.displacements = { 1: { items: [{ foot: { at: [0, 0, 0.2] }, by: [0, 0, 1.6], range: 0.5 }] } };
+  await withDocument(bulging, async (page, opened) => {
+    // The curve whose middle is farthest from the eye lies behind the bulge.
+    const far = ({ at }) => Math.hypot(...at[Math.floor(at.length / 2)].map((x, axis) => x - opened.camera.eye[axis]));
+    const { id } = opened.curves.reduce((a, b) => (far(b) > far(a) ? b : a));
+    await page.mouse.move(...middle(opened, id));
+    await untilInspect(page, ({ hover }) => hover === "surface 1");
+    await page.keyboard.press("f");
+    const over = await untilInspect(page, ({ hover }) => hover === `curve ${id}`);
+    assert.equal(over.document, opened.document);
+    await until(page, (id) => document.getElementById("hint").textContent === `The loop at curve ${id} is filled already.`, id, { timeout: 5000 });
+  });
+});
+
 test("all loops of a network are filled at once, and the report tells how they meet", async () => {
   await withDocument(twoLoops(), async (page, opened) => {
     await page.keyboard.press("f");

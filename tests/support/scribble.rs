@@ -6,8 +6,8 @@ use crate::round::Round;
 use crate::shapes;
 use ductile_modeler::Model;
 use ductile_spec::{
-    CurveId, Displacement, Edit, ExportFormat, Extent, GrabTarget, Handle, ObjectiveOf, On, PointId, Request,
-    Resume, SpacingOf, Step, SurfaceId, Through, to_compact_text, to_fragment,
+    CurveId, Displacement, Displacing, Edit, ExportFormat, Extent, GrabTarget, Handle, ObjectiveOf, On,
+    PointId, Request, Resume, SpacingOf, Step, Stretch, SurfaceId, Through, to_compact_text, to_fragment,
 };
 use glam::DVec3;
 
@@ -77,7 +77,7 @@ fn request(dice: &mut Dice, model: &Model) -> Request {
         9 if dice.coin() => {
             let shape = model.surfaces.get(&surface).map(|shape| &**shape);
             let range = if dice.coin() { number(dice) } else { dice.unit() };
-            Request::Reach { surface, at: place(dice, model, shape), range }
+            Request::Reach(displacing(model, surface, place(dice, model, shape), range))
         }
         9 => Request::Meet { first: surface, second: dice.pick(&surfaces).unwrap_or(SurfaceId(99)) },
         10 => Request::Export(ExportFormat::Obj),
@@ -91,6 +91,14 @@ fn request(dice: &mut Dice, model: &Model) -> Request {
     }
 }
 
+/// What would be displaced from a place: on one side of the model a curve, here and there in a direction.
+fn displacing(model: &Model, surface: SurfaceId, at: DVec3, range: f64) -> Displacing {
+    let curves = model.document.surfaces.get(&surface).into_iter().flat_map(|s| &s.skeleton.curves);
+    let along = curves.map(|embedded| embedded.curve).last().filter(|_| at.x > 0.0);
+    let direction = (at.y > 0.0).then_some(Stretch { along: at, times: 2.0 + at.z });
+    Displacing { surface, at, along, range, direction }
+}
+
 fn target(dice: &mut Dice, model: &Model, surface: SurfaceId) -> GrabTarget {
     let points: Vec<PointId> = model.document.points.keys().copied().collect();
     let curves: Vec<CurveId> = model.curves.keys().copied().collect();
@@ -101,7 +109,7 @@ fn target(dice: &mut Dice, model: &Model, surface: SurfaceId) -> GrabTarget {
         0..=1 => GrabTarget::Point(point),
         2 => GrabTarget::Curve { curve, at },
         3..=4 => GrabTarget::Surface { surface, at },
-        _ if dice.coin() => GrabTarget::Displace { surface, at, range: 0.9 - 2.0 * dice.unit() },
+        _ if dice.coin() => GrabTarget::Displace(displacing(model, surface, at, 0.9 - 2.0 * dice.unit())),
         _ if dice.coin() => GrabTarget::Foot { surface, number: dice.below(3) },
         _ => GrabTarget::Handle(Handle::Tangent { curve, point }),
     }

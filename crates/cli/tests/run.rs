@@ -117,6 +117,28 @@ fn every_act_of_the_user_guide_is_understood() {
     }
 }
 
+/// The names of all variants of a type, as its reader lists them when it does not know one.
+fn names_of<T: serde::de::DeserializeOwned>() -> Vec<String> {
+    let Err(unknown) = serde_json::from_str::<T>(r#"{"no-such-name": {}}"#) else { panic!("a name is free") };
+    let text = unknown.to_string();
+    let (_, names) = text.split_once("expected").unwrap();
+    names.split('`').skip(1).step_by(2).map(str::to_owned).collect()
+}
+
+#[test]
+fn the_user_guide_shows_every_act_and_every_way_to_name_a_hole() {
+    let guide = include_str!("../../../docs/user-guide.md");
+    let (acts, holes) = (names_of::<ductile_spec::Edit>(), names_of::<ductile_spec::Hole>());
+    assert!(acts.len() > 45 && holes.len() > 4, "{acts:?} {holes:?}");
+    for name in acts
+        .iter()
+        .map(|name| format!("{{\"{name}\":"))
+        .chain(holes.iter().map(|name| format!("\"{name}\":")))
+    {
+        assert!(guide.contains(&name), "{name} is in no example of the user guide");
+    }
+}
+
 #[test]
 fn a_surface_is_displaced_and_the_document_says_how() {
     let folder = tempfile::tempdir().unwrap();

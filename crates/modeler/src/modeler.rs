@@ -162,8 +162,9 @@ impl Modeler {
                 let lines = operation::meeting(&self.model, first, second)?;
                 Ok(Outcome { meeting: Some(Meeting { first, second, lines }), ..Outcome::default() })
             }
-            Request::Reach { surface, at, range } => {
-                let segments = self.displacer.reach((&self.model, &self.relaxer), surface, at, range)?;
+            Request::Reach(trial) => {
+                let segments = self.displacer.reach((&self.model, &self.relaxer), &trial)?;
+                let surface = trial.surface;
                 Ok(Outcome { reach: Some(Reach { surface, segments }), ..Outcome::default() })
             }
             Request::Loop { curve, at } => {

@@ -5,7 +5,7 @@ use crate::error::ModelError;
 use crate::model::Model;
 use crate::operation::kept_position;
 use crate::relax::Relaxer;
-use ductile_spec::{Combination, Displacement, MAX_COORDINATE, SurfaceId};
+use ductile_spec::{Combination, Displacing, MAX_COORDINATE, SurfaceId};
 use glam::DVec3;
 
 /// How far one drag can reach, in radii of the model at its beginning.
@@ -27,22 +27,20 @@ pub(crate) struct Pull {
 }
 
 impl Pull {
-    /// Makes a displacement at a place of what is shown. The surface stays as it is until the hand moves.
+    /// Makes a displacement of a place or a curve of what is shown. The surface stays as it is until the hand moves.
     pub(crate) fn begin(
         (model, relaxer, displacer): (&mut Model, &Relaxer, &mut Displacer),
-        surface: SurfaceId,
-        at: DVec3,
-        range: f64,
+        begun: &Displacing,
     ) -> Result<Self, ModelError> {
-        let before = model.clone();
+        let (before, surface) = (model.clone(), begun.surface);
         model.document.kind_of(surface).ok_or(ModelError::NoSurface(surface))?;
-        let shown = kept_position(model, at)?;
+        let shown = kept_position(model, begun.at)?;
         let below = kept_position(model, displacer.on_base(surface, shown))?;
         let displaced = model.document_mut().displacements.entry(surface).or_default();
         // Where others have moved the place, it is held there; in a sum they go on moving it.
         let is_plain = displaced.blending.combination == Combination::Plain;
         let by = if is_plain { DVec3::ZERO } else { shown - below };
-        displaced.items.push(Displacement { range, ..Displacement::new(below, by) });
+        displaced.items.push(begun.displacement(below, by));
         let index = displaced.items.len() - 1;
         model.document.validate()?;
         displacer.check(model, relaxer, surface)?;

@@ -6,7 +6,7 @@
 //! A place is found again on any mesh as the nearest one, to within the error of the mesh. When the surface below it
 //! moves, the act that moved it carries the foot along, and the new place is part of that act.
 
-use crate::id::CurveId;
+use crate::id::{CurveId, SurfaceId};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
@@ -85,6 +85,24 @@ pub struct Stretch {
     pub times: f64,
 }
 
+/// A displacement that a tool would begin: where it points, and how far that would reach.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Displacing {
+    /// Of which surface.
+    pub surface: SurfaceId,
+    /// Where the hand is, on the surface as it is shown.
+    pub at: DVec3,
+    /// The curve inside the surface that moves as a whole; without one the place moves.
+    #[serde(default)]
+    pub along: Option<CurveId>,
+    /// How far around, as a displacement says it.
+    pub range: f64,
+    /// Whether it reaches further in one direction than in others.
+    #[serde(default)]
+    pub direction: Option<Stretch>,
+}
+
 /// What stays where it is.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -150,10 +168,7 @@ impl Displaced {
 
     /// The curves that it hangs on.
     pub fn curves(&self) -> impl Iterator<Item = CurveId> + '_ {
-        let feet = self.items.iter().filter_map(|item| match item.foot {
-            Foot::Along(curve) => Some(curve),
-            Foot::At(_) | Foot::All(_) => None,
-        });
+        let feet = self.items.iter().filter_map(|item| item.foot.curve());
         let pins = self.blending.pins.iter().filter_map(|pin| match pin {
             Hold::Curve(curve) => Some(*curve),
             Hold::Around { .. } => None,
@@ -180,6 +195,15 @@ impl Displacement {
     }
 }
 
+impl Displacing {
+    /// The displacement that it begins, by `by`; `below` is the place of the hand on the surface without displacements.
+    #[must_use]
+    pub fn displacement(&self, below: DVec3, by: DVec3) -> Displacement {
+        let foot = self.along.map_or(Foot::At(below), Foot::Along);
+        Displacement { foot, by, range: self.range, direction: self.direction }
+    }
+}
+
 impl Foot {
     /// The places that move; none of a curve.
     #[must_use]
@@ -189,6 +213,12 @@ impl Foot {
             Self::All(places) => places,
             Self::Along(_) => &[],
         }
+    }
+
+    /// The curve that moves, if one does.
+    #[must_use]
+    pub fn curve(&self) -> Option<CurveId> {
+        if let Self::Along(curve) = self { Some(*curve) } else { None }
     }
 
     /// The same, to be changed.

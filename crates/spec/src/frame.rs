@@ -90,7 +90,7 @@ pub struct FailedShadow {
     pub why: String,
 }
 
-/// A foot of a displacement.
+/// A foot of a displacement. A curve that is one has an entry for each of its vertices, in order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FootEntry {
     /// Of which surface.

@@ -1,5 +1,6 @@
 //! What a drag takes hold of: a point, a place that becomes one, a part of a cage, a foot of a displacement, or a direction.
 
+use crate::displacement::Displacing;
 use crate::id::{CurveId, PointId, SurfaceId};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -23,16 +24,9 @@ pub enum GrabTarget {
         /// Where, roughly.
         at: DVec3,
     },
-    /// A place on a surface from which its inside is displaced: the place follows the hand.
-    Displace {
-        /// Which surface.
-        surface: SurfaceId,
-        /// Where, roughly, on the surface as it is shown.
-        at: DVec3,
-        /// How far around.
-        range: f64,
-    },
-    /// The foot of a displacement; of several feet the first.
+    /// A place or a curve of a surface from which its inside is displaced: it follows the hand.
+    Displace(Displacing),
+    /// The foot of a displacement; of several feet, and of a curve, the first place.
     Foot {
         /// Which surface.
         surface: SurfaceId,

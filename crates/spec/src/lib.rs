@@ -32,8 +32,8 @@ pub use cage::{
 };
 pub use cage_source::{CageForm, CageSource};
 pub use displacement::{
-    Blend, Blending, Combination, Displaced, Displacement, Foot, Hold, LEAST_RANGE, MOST_FEET, MOST_RANGE,
-    Profile, Stretch,
+    Blend, Blending, Combination, Displaced, Displacement, Displacing, Foot, Hold, LEAST_RANGE, MOST_FEET,
+    MOST_RANGE, Profile, Stretch,
 };
 pub use document::{
     Curve, Density, Document, Embedding, MAX_COORDINATE, Objective, Region, Ribbon, Side, Skeleton,

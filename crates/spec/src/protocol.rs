@@ -4,6 +4,7 @@
 //! drag is coalesced by itself: only the newest target rides on the next step. Each reply carries the
 //! newest frame. A refused request leaves the model as it was.
 
+use crate::displacement::Displacing;
 use crate::edit::Edit;
 use crate::example::Example;
 use crate::frame::{FrameHeader, Structure};
@@ -70,14 +71,7 @@ pub enum Request {
         second: SurfaceId,
     },
     /// Asks how far a displacement would reach. Changes nothing.
-    Reach {
-        /// Of which surface.
-        surface: SurfaceId,
-        /// Where its foot would be, on the surface as it is shown.
-        at: DVec3,
-        /// Its range.
-        range: f64,
-    },
+    Reach(Displacing),
     /// Asks for the loop that a fill would take through a place of a curve. Changes nothing.
     Loop {
         /// The curve.

@@ -89,13 +89,15 @@ pub struct Wanted {
     pub curves: bool,
     /// Surfaces. They hide what is behind them even if they are not wanted.
     pub surfaces: bool,
+    /// Curves that a surface hides, too, where none is in sight.
+    pub hidden: bool,
     /// A point that is passed over: the one in the hand, when it looks for another to snap to.
     pub except: Option<PointId>,
 }
 
 impl Wanted {
-    /// Everything.
-    pub const ALL: Self = Self { points: true, curves: true, surfaces: true, except: None };
+    /// Everything that is in sight.
+    pub const ALL: Self = Self { points: true, curves: true, surfaces: true, hidden: false, except: None };
 }
 
 /// What lies under the pointer, the cursor in CSS pixels. Points and curves are reached from a distance.
@@ -119,7 +121,7 @@ pub fn pick_among(
     let aim = Aim { scene, camera, cursor, reach_px };
     let point = if wanted.points { aim.point(wanted.except) } else { None };
     point
-        .or_else(|| if wanted.curves { aim.curve() } else { None })
+        .or_else(|| if wanted.curves { aim.curve(wanted.hidden) } else { None })
         .or_else(|| if wanted.surfaces { aim.surface() } else { None })
 }
 
@@ -180,13 +182,16 @@ impl Aim<'_> {
         self.first_visible(candidates.collect()).map(|found| Hit::Point { id: found.what, at: found.at })
     }
 
-    fn curve(&self) -> Option<Hit> {
+    fn curve(&self, hidden: bool) -> Option<Hit> {
         let candidates = self.scene.structure.curves.iter().filter_map(|span| {
             let samples = triples(self.scene.span_samples(span));
             let Near { distance_px, depth, at } = self.nearest_on(samples, span.closed)?;
             Some(Candidate { distance_px, depth, at, what: span.id })
         });
-        self.first_visible(candidates.collect()).map(|found| Hit::Curve { id: found.what, at: found.at })
+        let candidates: Vec<_> = candidates.collect();
+        let nearest = || candidates.iter().min_by(|a, b| a.distance_px.total_cmp(&b.distance_px)).copied();
+        let found = self.first_visible(candidates.clone()).or_else(|| nearest().filter(|_| hidden));
+        found.map(|found| Hit::Curve { id: found.what, at: found.at })
     }
 
     /// The place of a polyline nearest to the pointer, if within reach.

@@ -7,7 +7,9 @@ use crate::{Hit, Scene};
 use ductile_spec::{CurveId, CurveSpan, Document, Edit, On, PointEntry, PointId, Structure, SurfaceId};
 use glam::Vec3;
 
+mod around;
 mod cage;
+mod divide;
 mod drag;
 mod fill;
 mod ghost;
@@ -26,6 +28,8 @@ mod surgery_test;
 #[cfg(test)]
 mod tests;
 
+pub use around::Around;
+pub use divide::face_between;
 pub use drag::{Arrow, Axis, Drag, grid_step, nudge_direction, work_plane};
 pub use ghost::ghost_line;
 pub use handle::{Arm, handles_at};
@@ -126,7 +130,7 @@ pub struct Toolbox {
     kind: ToolKind,
     corners: Vec<Corner>,
     first: Option<Pick>,
-    /// Where a stretch begins whose other end is awaited.
+    /// Where a stretch, or the split of a face, begins whose other end is awaited.
     end: Option<PointId>,
     options: Options,
 }
@@ -189,27 +193,18 @@ impl Toolbox {
     #[must_use]
     pub fn hint(&self) -> &'static str {
         match self.kind {
-            ToolKind::Shape => "Drag the surface, a curve or a point. Double-click a point to release it.",
-            ToolKind::Point => {
-                "Click where a control point should be: on a surface, on a curve, or in the work plane."
-            }
+            ToolKind::Shape => "Drag anything. Double-click a point to release it.",
+            ToolKind::Point => "Click where a control point should be.",
             ToolKind::Curve | ToolKind::Draw => self.path_hint(),
-            ToolKind::Displace => {
-                "Drag a surface from inside. Wheel, [ ]: how far around. Shift-click: a place that stays. Ctrl-click: one that moves along."
-            }
+            ToolKind::Displace => "Drag a surface, or a curve in it. Wheel: how far around.",
             ToolKind::Sheet => "Click a closed curve to skin it.",
-            ToolKind::Ribbon => "Click a rim, or a curve or point in a surface. Drag the green handles.",
-            ToolKind::Fill => {
-                "Click a curve to fill the loop through it. Enter fills all loops of its network."
-            }
-            ToolKind::Burnout => "Click a region to burn it out. The curves around it stay.",
-            ToolKind::Crease => {
-                "Click a curve in a surface, or a region, to crease it. Click a crease to smooth it."
-            }
-            ToolKind::Split => "Click a curve in a surface, or a region, to cut the surface there.",
-            ToolKind::Cage => {
-                "Click where a cage should stand, or drag vertices, edges and faces of one. E extrudes a face."
-            }
+            ToolKind::Ribbon => "Click a rim, a curve or a point. Drag green handles.",
+            ToolKind::Fill => "Click a curve to fill the loop through it. Enter: all.",
+            ToolKind::Burnout => "Click a region to burn it out. Its curves stay.",
+            ToolKind::Crease => "Click a curve or region to crease, a crease to smooth.",
+            ToolKind::Split => "Click a curve or region to cut the surface there.",
+            ToolKind::Cage => "Click to place a cage, or drag one. E extrudes, X splits.",
+            ToolKind::Divide => self.divide_hint(),
             ToolKind::Sweep
             | ToolKind::Embed
             | ToolKind::Glue
@@ -243,6 +238,7 @@ impl Toolbox {
             ToolKind::Shadow => self.pick_shadow(Place::of(aim.hit)),
             ToolKind::Match => self.pick_match(aim.hit, around.structure),
             ToolKind::Cage => cage::click(aim, &self.options, around.size),
+            ToolKind::Divide => self.pick_corner(aim.hit, around.document),
         }
     }
 
@@ -266,6 +262,10 @@ impl Toolbox {
                 if self.kind != ToolKind::Match && self.first.take().is_some() =>
             {
                 self.options.reversed = false;
+                Vec::new()
+            }
+            ToolKey::Escape if self.kind == ToolKind::Divide => {
+                self.choose(ToolKind::Cage);
                 Vec::new()
             }
             ToolKey::Escape => vec![Act::Leave],

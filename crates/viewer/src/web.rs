@@ -57,6 +57,8 @@ mod panel;
 #[cfg(target_arch = "wasm32")]
 mod port;
 #[cfg(target_arch = "wasm32")]
+mod reach;
+#[cfg(target_arch = "wasm32")]
 mod replies;
 #[cfg(target_arch = "wasm32")]
 mod ribbon;

@@ -300,9 +300,14 @@ impl Overlay {
         Some((below, shown - below - by))
     }
 
-    /// The feet that are shown: index of the displacement and vertex.
+    /// The feet that are shown: index of the displacement and vertex; of a curve all its vertices, in order.
     pub(crate) fn feet(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
-        self.feet.iter().enumerate().map(|(item, foot)| (foot.index, self.vertex(item)))
+        self.feet.iter().zip(self.solver.items()).enumerate().flat_map(|(item, (foot, solved))| {
+            let at = self.vertex(item);
+            let place = foot.spot.map(|_| at);
+            let course = solved.vertices().iter().copied().filter(move |_| place.is_none());
+            place.into_iter().chain(course).map(|vertex| (foot.index, vertex))
+        })
     }
 
     fn vertex(&self, item: usize) -> usize {

@@ -4,12 +4,12 @@ use super::Displacer;
 use super::base::Base;
 use super::footing::Spot;
 use super::overlay::pinned;
-use super::request::{item_at, settings};
+use super::request::{items_of, settings};
 use crate::error::ModelError;
 use crate::model::Model;
 use crate::relax::Relaxer;
 use ductile_patch::{DisplacementError, Displacements, Domain};
-use ductile_spec::{Blending, Displaced, Displacement, SurfaceId};
+use ductile_spec::{Blending, Displaced, Displacing, SurfaceId};
 use glam::DVec3;
 
 /// Where a blend counts as reached.
@@ -25,25 +25,25 @@ pub(super) struct Probe {
 }
 
 impl Displacer {
-    /// Segments of the line to which a displacement at a place of what is shown would reach.
+    /// Segments of the line to which a displacement of a place or a curve of what is shown would reach.
     ///
     /// # Errors
-    /// Why the place cannot be displaced.
+    /// Why it cannot be displaced.
     pub(crate) fn reach(
         &mut self,
         (model, relaxer): (&Model, &Relaxer),
-        id: SurfaceId,
-        at: DVec3,
-        range: f64,
+        trial: &Displacing,
     ) -> Result<Vec<[DVec3; 2]>, ModelError> {
+        let id = trial.surface;
         let base = Base::of(model, relaxer, id).ok_or(ModelError::NoSurface(id))?;
         let asked = model.document.displacements.get(&id).cloned().unwrap_or_default();
         let refuse = |reason| ModelError::Displacement { surface: id, number: asked.items.len() + 1, reason };
         let nowhere = || refuse(DisplacementError::BadPosition(0));
-        let below = self.on_base(id, at);
-        let spot = Spot::nearest(base.positions, base.triangles, below).ok_or_else(nowhere)?;
-        let displacement = Displacement { range, ..Displacement::new(below, DVec3::ZERO) };
-        let item = item_at(&displacement, &spot).map_err(refuse)?;
+        let displacement = trial.displacement(self.on_base(id, trial.at), DVec3::ZERO);
+        let stand = |at: &DVec3| Spot::nearest(base.positions, base.triangles, *at);
+        let spots: Vec<Spot> = displacement.foot.places().iter().filter_map(stand).collect();
+        let items = items_of(&displacement, &spots, &base).map_err(refuse)?;
+        let (_, item) = items.into_iter().next().ok_or_else(nowhere)?;
         if let Some(overlay) = self.overlays.get_mut(&id).filter(|overlay| overlay.is_on(&base)) {
             let blend = overlay.trial(item).map_err(refuse)?;
             return Ok(line(&overlay.positions()[..blend.len()], base.triangles, &blend));

@@ -41,7 +41,7 @@ pub(super) fn items_of(
 }
 
 /// A foot of a displacement at a place.
-pub(super) fn item_at(displacement: &Displacement, spot: &Spot) -> Result<patch::Item, DisplacementError> {
+fn item_at(displacement: &Displacement, spot: &Spot) -> Result<patch::Item, DisplacementError> {
     let item = match spot.corner() {
         Some(vertex) => patch::Item::foot(vertex, displacement.by),
         None => patch::Item::spot(spot.corners, spot.shares, displacement.by)?,

@@ -2,9 +2,9 @@
 
 use crate::modeler::Modeler;
 use ductile_spec::{
-    Blending, Cage, Combination, Curve, Displaced, Displacement, Document, Edit, Example, ExportFormat, Foot,
-    GrabTarget, Hold, PointId, Reply, Request, Skeleton, SkeletonVertex, Step, Structure, Surface, SurfaceId,
-    VERTEX_FLOATS, from_text, to_text,
+    Blending, Cage, Combination, Curve, Displaced, Displacement, Displacing, Document, Edit, Example,
+    ExportFormat, Foot, GrabTarget, Hold, PointId, Reply, Request, Skeleton, SkeletonVertex, Step, Stretch,
+    Structure, Surface, SurfaceId, VERTEX_FLOATS, from_text, to_text,
 };
 use glam::DVec3;
 #[cfg(target_arch = "wasm32")]
@@ -126,6 +126,10 @@ fn displace(at: DVec3, by: DVec3) -> Edit {
     Edit::Displace { surface: ONE, displacement: Displacement::new(at, by) }
 }
 
+fn displacing(at: DVec3, range: f64) -> Displacing {
+    Displacing { surface: ONE, at, along: None, range, direction: None }
+}
+
 /// The distance of a place from the nearest of some.
 fn distance(places: &[DVec3], at: DVec3) -> f64 {
     places.iter().map(|place| place.distance(at)).fold(f64::INFINITY, f64::min)
@@ -221,7 +225,7 @@ fn a_drag_takes_the_foot_to_the_hand_as_one_act() {
     let mut bench = Bench::disc();
     let document = bench.spec().clone();
     let [at, _] = places_inside(&bench);
-    let target = GrabTarget::Displace { surface: ONE, at, range: -0.5 };
+    let target = GrabTarget::Displace(displacing(at, -0.5));
     let pulled = bench.accept(Request::Grab(target)).pulled.unwrap();
     assert_eq!((pulled.surface, pulled.number), (ONE, 1));
     assert!(pulled.at.distance(at) < 0.01);
@@ -363,7 +367,7 @@ fn a_closed_surface_needs_a_pin_and_stays_there() {
     let top = *all.iter().max_by(|a, b| a.z.total_cmp(&b.z)).unwrap();
     let bottom = *all.iter().min_by(|a, b| a.z.total_cmp(&b.z)).unwrap();
     assert!(bench.refuse(displace(top, DVec3::Z)).contains("closed"));
-    let grab = bench.ask(Request::Grab(GrabTarget::Displace { surface: ONE, at: top, range: 0.0 }));
+    let grab = bench.ask(Request::Grab(GrabTarget::Displace(displacing(top, 0.0))));
     assert!(grab.refused.unwrap().reason.contains("closed"));
     let pins = vec![Hold::Around { at: bottom, radius: 0.5 }];
     bench.edit(Edit::Blending { surface: ONE, blending: Blending { pins, ..Blending::default() } });
@@ -449,6 +453,72 @@ fn a_curve_inside_is_a_foot_that_cannot_be_deleted() {
     let displacement = Displacement { foot: Foot::Along(rim), ..Displacement::new(DVec3::ZERO, DVec3::Z) };
     assert!(bench.refuse(Edit::Displace { surface: ONE, displacement }).contains("boundary"));
     let _: &Curve = &bench.spec().curves[&rim];
+}
+
+#[test]
+fn a_drag_takes_a_whole_curve_along_as_one_act() {
+    let mut bench = Bench::disc();
+    let [one, other] = places_inside(&bench);
+    bench.edit(Edit::SLoop { surface: ONE, along: vec![one, other], closed: false });
+    bench.rest();
+    let (document, plain) = (bench.spec().clone(), bench.all());
+    let curve = *document.curves.keys().next_back().unwrap();
+    let nodes = bench.modeler.model().curves[&curve].nodes.clone();
+    let hand = nodes[nodes.len() / 3];
+    let begun = Displacing { along: Some(curve), ..displacing(hand, 0.2) };
+    let reach = bench.accept(Request::Reach(begun)).reach.unwrap();
+    let mean =
+        |places: &mut dyn Iterator<Item = DVec3>| places.fold(0.0, |far, at| far + distance(&nodes, at));
+    let count = reach.segments.len() as f64;
+    assert!(mean(&mut reach.segments.iter().map(|ends| ends[0])) / count > 0.05, "it runs around the curve");
+    let target = GrabTarget::Displace(begun);
+    let pulled = bench.accept(Request::Grab(target)).pulled.unwrap();
+    let by = DVec3::new(0.02, 0.0, 0.3);
+    bench.step(Some(pulled.at + 0.5 * by));
+    bench.step(Some(pulled.at + by));
+    let feet = bench.structure.feet.clone();
+    assert_eq!(feet.len(), nodes.len(), "each of its vertices has an entry");
+    for (foot, node) in feet.iter().zip(&nodes) {
+        assert!(bench.shown(foot.vertex).distance(*node + by) < 1e-5, "in order, and by the drag");
+    }
+    assert_eq!(bench.accept(Request::Drop).committed.unwrap().act, "Displace");
+    assert_eq!(bench.displaced().items[0].foot, Foot::Along(curve));
+    bench.rest();
+    // It can be taken again; a drag that is given up leaves nothing.
+    let again = bench.accept(Request::Grab(GrabTarget::Foot { surface: ONE, number: 1 })).pulled.unwrap();
+    assert!(again.at.distance(pulled.at + by) < 1e-5);
+    bench.step(Some(again.at + DVec3::Y));
+    bench.accept(Request::Cancel);
+    bench.accept(Request::Undo);
+    assert_eq!(*bench.spec(), document);
+    bench.rest();
+    assert!(bench.all().iter().zip(&plain).all(|(a, b)| a.distance(*b) < 1e-5));
+    // A rim cannot move, and a curve that is a foot already cannot be another one.
+    let rim = *document.curves.keys().next().unwrap();
+    let grab = GrabTarget::Displace(Displacing { along: Some(rim), ..begun });
+    assert!(bench.ask(Request::Grab(grab)).refused.unwrap().reason.contains("boundary"));
+    assert_eq!(*bench.spec(), document);
+}
+
+#[test]
+fn a_stretched_reach_is_as_many_times_longer_than_wide() {
+    let mut bench = Bench::disc();
+    let all = bench.all();
+    let at = all.iter().sum::<DVec3>() / all.len() as f64;
+    let extent = |bench: &mut Bench, direction| {
+        let trial = Displacing { direction, ..displacing(at, -2.0) };
+        let segments = bench.accept(Request::Reach(trial)).reach.unwrap().segments;
+        let far = |axis: usize| {
+            segments.iter().flatten().map(|end| (end[axis] - at[axis]).abs()).fold(0.0, f64::max)
+        };
+        [far(0), far(1)]
+    };
+    let [x, y] = extent(&mut bench, None);
+    assert!((x / y - 1.0).abs() < 0.1, "{x} {y}");
+    for (along, times) in [(DVec3::X, 3.0), (DVec3::Y * 7.0, 1.0 / 3.0)] {
+        let [x, y] = extent(&mut bench, Some(Stretch { along, times }));
+        assert!((x / y / 3.0 - 1.0).abs() < 0.2, "{x} {y}");
+    }
 }
 
 #[test]

@@ -39,10 +39,10 @@ impl Modeler {
     /// Takes hold of a foot, or makes one; nothing if something else is meant.
     pub(super) fn pull(&mut self, target: GrabTarget) -> Option<Result<Outcome, ModelError>> {
         let begun = match target {
-            GrabTarget::Displace { surface, at, range } => {
+            GrabTarget::Displace(begun) => {
                 let before = self.model.clone();
                 let all = (&mut self.model, &self.relaxer, &mut self.displacer);
-                let begun = Pull::begin(all, surface, at, range);
+                let begun = Pull::begin(all, &begun);
                 if begun.is_err() {
                     self.restore(before);
                 }

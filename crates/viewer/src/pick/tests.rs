@@ -51,6 +51,22 @@ fn points_come_before_curves_before_surfaces() {
 }
 
 #[test]
+fn a_curve_that_a_surface_hides_is_taken_by_those_who_see_through_unless_one_is_in_sight() {
+    let scene = plate();
+    for camera in [from_above(false), from_above(true)] {
+        let under = camera.project(Vec3::new(0.3, 0.6, -0.5)).unwrap();
+        let through = Wanted { hidden: true, points: false, surfaces: false, ..Wanted::ALL };
+        let among = |cursor, wanted| pick_among(&scene, &camera, cursor, 8.0, wanted);
+        assert_eq!(among(under, Wanted { hidden: false, ..through }), None);
+        let Some(Hit::Curve { id: CurveId(2), at }) = among(under, through) else { panic!("the hidden one") };
+        assert!(at.distance(Vec3::new(0.3, 0.6, -0.5)) < 1e-3, "{at}");
+        // Where the reach is wide enough for both, the one in sight is meant, though it is farther off.
+        let seen = pick_among(&scene, &camera, under, 400.0, through);
+        assert!(matches!(seen, Some(Hit::Curve { id: CurveId(1), .. })), "{seen:?}");
+    }
+}
+
+#[test]
 fn what_a_surface_hides_is_left_to_it() {
     let scene = plate();
     for camera in [from_above(false), from_above(true)] {

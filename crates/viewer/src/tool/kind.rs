@@ -47,6 +47,8 @@ pub enum ToolKind {
     Shadow,
     /// Lets a curve grow or shrink to the size of another; a button of the properties, not of the bar.
     Match,
+    /// Divides faces of cages between two corners; a key of the Cage tool and a button of the properties.
+    Divide,
 }
 
 impl ToolKind {
@@ -95,6 +97,7 @@ impl ToolKind {
             Self::Displace => "displace",
             Self::Shadow => "shadow",
             Self::Match => "match",
+            Self::Divide => "divide",
         }
     }
 
@@ -129,7 +132,14 @@ impl ToolKind {
     pub fn wants_points(self) -> bool {
         matches!(
             self,
-            Self::Shape | Self::Point | Self::Curve | Self::Draw | Self::Sweep | Self::Ribbon | Self::Cage
+            Self::Shape
+                | Self::Point
+                | Self::Curve
+                | Self::Draw
+                | Self::Sweep
+                | Self::Ribbon
+                | Self::Cage
+                | Self::Divide
         )
     }
 
@@ -138,20 +148,20 @@ impl ToolKind {
     pub fn wants_curves(self) -> bool {
         !matches!(
             self,
-            Self::Burnout
-                | Self::Glue
-                | Self::Merge
-                | Self::Trim
-                | Self::Cage
-                | Self::Displace
-                | Self::Shadow
+            Self::Burnout | Self::Glue | Self::Merge | Self::Trim | Self::Cage | Self::Shadow | Self::Divide
         )
     }
 
     /// Whether it takes surfaces, or places on them.
     #[must_use]
     pub fn wants_surfaces(self) -> bool {
-        !matches!(self, Self::Sheet | Self::Sweep | Self::Match | Self::Fill | Self::Ribbon)
+        !matches!(self, Self::Sheet | Self::Sweep | Self::Match | Self::Fill | Self::Ribbon | Self::Divide)
+    }
+
+    /// Whether it takes curves that a surface hides, where none is in sight: it has no business with surfaces.
+    #[must_use]
+    pub fn sees_through(self) -> bool {
+        matches!(self, Self::Sheet | Self::Sweep | Self::Match | Self::Fill)
     }
 
     /// Whether it acts on a whole region rather than at a place.
@@ -168,7 +178,7 @@ impl ToolKind {
             (Self::Draw, Hit::Point { id, .. }) => {
                 entry(structure, *id).is_some_and(|point| point.role != PointRole::Free)
             }
-            (Self::Ribbon, Hit::Point { id, .. }) => {
+            (Self::Ribbon | Self::Divide, Hit::Point { id, .. }) => {
                 entry(structure, *id).is_some_and(|point| point.role == PointRole::Surface)
             }
             (Self::Sweep, Hit::Point { id, .. }) => {
@@ -176,6 +186,9 @@ impl ToolKind {
             }
             (Self::Draw | Self::Crease | Self::Split | Self::Ribbon, Hit::Curve { id, .. }) => {
                 curve(*id).is_some_and(|curve| curve.role != CurveRole::Free)
+            }
+            (Self::Displace, Hit::Curve { id, .. }) => {
+                curve(*id).is_some_and(|curve| curve.role == CurveRole::Inner)
             }
             (Self::Sheet | Self::Match, Hit::Curve { id, .. }) => {
                 curve(*id).is_some_and(|curve| curve.closed)

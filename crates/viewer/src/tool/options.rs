@@ -1,6 +1,6 @@
 //! How the tools that make and join things do it: choices that stay from one use to the next.
 
-use super::ToolKind;
+use super::{Around, ToolKind};
 use ductile_spec::{CageForm, FillStyle, JoinRibbon};
 
 /// The choices.
@@ -28,8 +28,8 @@ pub struct Options {
     pub distance: Option<f64>,
     /// Fill: how loops are filled.
     pub fill: FillStyle,
-    /// Displace: how far around, as a displacement says it.
-    pub range: f64,
+    /// Displace: how far around.
+    pub around: Around,
 }
 
 impl Default for Options {
@@ -46,7 +46,7 @@ impl Default for Options {
             size: None,
             distance: None,
             fill: FillStyle::default(),
-            range: 0.0,
+            around: Around::default(),
         }
     }
 }

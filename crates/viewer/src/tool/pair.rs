@@ -19,31 +19,19 @@ impl Toolbox {
     pub(super) fn pair_hint(&self) -> &'static str {
         match (self.kind, self.first.is_some()) {
             (ToolKind::Sweep, _) if self.end.is_some() => {
-                "Click the control point at which the stretch ends. On a closed curve it leads there in the curve's own sense."
+                "Now click the control point at which the stretch ends."
             }
-            (ToolKind::Sweep, false) => {
-                "Click the first of two curves, both closed or both open; or the two control points at the ends of a stretch."
-            }
-            (ToolKind::Sweep, true) => {
-                "Now click the other curve, or the ends of a stretch of it. R runs through it the other way."
-            }
-            (ToolKind::Embed, false) => "Click the curve that should lie in a surface. It stays where it is.",
+            (ToolKind::Sweep, false) => "Click the first of two curves, or the ends of a stretch.",
+            (ToolKind::Sweep, true) => "Now click the other curve, or the ends of a stretch.",
+            (ToolKind::Embed, false) => "Click the curve that should lie in a surface.",
             (ToolKind::Embed, true) => "Now click the surface that should pass through it.",
             (ToolKind::Glue, false) => "Click the first of two rims. It stays where it is.",
-            (ToolKind::Glue, true) => {
-                "Now click the other rim. S: with a band between them or without. R: the other way round."
-            }
+            (ToolKind::Glue, true) => "Now click the other rim.",
             (ToolKind::Merge, false) => "Click where the tube should begin.",
-            (ToolKind::Merge, true) => {
-                "Now click where it should end; Enter takes the closest places. The wheel sets the radius, K keeps the rims."
-            }
-            (ToolKind::Trim, false) => "Click the part of the first surface that should stay.",
-            (ToolKind::Trim, true) => {
-                "Now click the part of the second surface that should stay. S: smooth where they join, or a crease. R: a ribbon holds the join."
-            }
-            (ToolKind::Shadow, false) => {
-                "Click the region that should take on the relief of another surface."
-            }
+            (ToolKind::Merge, true) => "Click where it should end. Wheel: radius, Enter: closest.",
+            (ToolKind::Trim, false) => "Click the part of one surface that should stay.",
+            (ToolKind::Trim, true) => "Now click the part of the other that should stay.",
+            (ToolKind::Shadow, false) => "Click the region that should take on another's relief.",
             (ToolKind::Shadow, true) => "Now click the stamp: another surface with one rim.",
             _ => "Click the closed curve whose size it should get.",
         }
@@ -58,7 +46,7 @@ impl Toolbox {
         }
     }
 
-    /// The control point at which a stretch begins whose other end is awaited.
+    /// The control point at which a stretch, or the split of a face, begins whose other end is awaited.
     #[must_use]
     pub fn stretch_from(&self) -> Option<PointId> {
         self.end

@@ -23,20 +23,14 @@ pub struct Corner {
 impl Toolbox {
     pub(super) fn path_hint(&self) -> &'static str {
         match (self.kind, self.corners.len()) {
-            (ToolKind::Draw, 0) => {
-                "Click on a surface where the curve on it begins, or sketch it in one stroke."
-            }
-            (ToolKind::Draw, 1) => {
-                "Click the next place on the surface. Backspace takes the last one away, Esc gives up."
-            }
-            (ToolKind::Draw, 2) => "Click the next place on the surface, or Enter to end the curve here.",
-            (ToolKind::Draw, _) => {
-                "Click the next place on the surface, the first one to close the curve, or Enter to end it."
-            }
-            (_, 0) => "Click where the curve begins. Points that exist are taken over.",
-            (_, 1) => "Click the next point. Backspace takes the last one away, Esc gives up.",
+            (ToolKind::Draw, 0) => "Click where the curve begins, or sketch it in one stroke.",
+            (ToolKind::Draw, 1) => "Click the next place. Backspace: one back, Esc gives up.",
+            (ToolKind::Draw, 2) => "Click the next place, or Enter to end the curve here.",
+            (ToolKind::Draw, _) => "Click the next place, the first one to close, or Enter.",
+            (_, 0) => "Click where the curve begins; points are taken over.",
+            (_, 1) => "Click the next point. Backspace: one back, Esc gives up.",
             (_, 2) => "Click the next point, or Enter to end the curve here.",
-            _ => "Click the next point, the first one to close the curve, or Enter to end it.",
+            _ => "Click the next point, the first one to close, or Enter.",
         }
     }
 

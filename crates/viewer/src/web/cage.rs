@@ -3,13 +3,14 @@
 use super::dom;
 use super::menu;
 use super::page::{Page, act};
-use crate::tool::{Selection, ToolKind};
+use crate::tool::{Selection, ToolKind, face_between};
 use crate::{Highlight, Hit, NetPart, cage_edge_at, cage_face, number, with_cage_face};
 use ductile_spec::{
     Cage, CageBlend, CageBoundary, CageForm, CageMap, CageSettings, CageSplit, Edit, PointId, Request,
     SurfaceId,
 };
 use glam::{Vec2, Vec3};
+use std::collections::BTreeSet;
 
 /// The fields of index.html: size of a new cage, distance of an extrusion, order of the blend, steps along an edge.
 pub(crate) const FIELDS: [&str; 4] = [SIZE, DISTANCE, ORDER, RESOLUTION];
@@ -96,6 +97,47 @@ impl Page {
             _ => None,
         };
         mark.parts.extend(over.map(|places| NetPart { places, is_selected: false }));
+    }
+
+    /// Whether a click on something could divide a face, if that is what the tool in hand does.
+    pub(crate) fn could_divide(&self, hit: &Hit) -> bool {
+        match (self.tools.kind(), hit, self.tools.stretch_from()) {
+            (ToolKind::Divide, Hit::Point { id, .. }, Some(first)) => {
+                first == *id || face_between(&self.document, [first, *id]).is_ok()
+            }
+            (ToolKind::Divide, Hit::Point { id, .. }, None) => self.document.cages_on(*id).next().is_some(),
+            _ => true,
+        }
+    }
+
+    /// The corner that a split begins at, where it could lead, and the new edge under the pointer.
+    pub(crate) fn mark_split(&self, mark: &mut Highlight) {
+        let Some(first) = self.tools.stretch_from() else { return };
+        mark.selected.push(first);
+        let faces = self.document.cages.values().flat_map(|cage| &cage.faces);
+        let corners: BTreeSet<PointId> =
+            faces.filter(|face| face.contains(&first)).flatten().copied().collect();
+        let ends = corners.into_iter().map(|other| [first, other]);
+        let ends = ends.filter(|ends| face_between(&self.document, *ends).is_ok());
+        mark.sketch.extend(ends.filter_map(|ends| self.edge_places(ends)));
+        if let Some(Hit::Point { id, .. }) = mark.hover
+            && id != first
+        {
+            let places = self.edge_places([first, id]);
+            mark.parts.extend(places.map(|places| NetPart { places, is_selected: false }));
+        }
+    }
+
+    /// Awaits the corners between which a face should be split; a selected vertex is the first.
+    pub(crate) fn begin_split(&mut self) {
+        let first = match self.selection {
+            Selection::Point(id) => Some(id).filter(|id| self.document.cages_on(*id).next().is_some()),
+            _ => None,
+        };
+        self.tools.choose_divide(first);
+        self.hand.hover_is_stale = true;
+        self.notices.hide_toast();
+        self.refresh();
     }
 
     /// Where the centre of a new cage would be.
@@ -265,6 +307,7 @@ impl Page {
                     self.request(Request::Edit(Edit::SplitFace { surface, face, between: None }));
                 }
             }
+            "divide" => self.begin_split(),
             "split-edge" => {
                 if let Selection::Edge { surface, ends } = self.selection {
                     self.request(Request::Edit(Edit::SplitEdge { surface, ends, at: 0.5 }));

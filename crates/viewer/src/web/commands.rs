@@ -292,11 +292,12 @@ impl Page {
             _ => return,
         };
         let wants = match (self.tools.kind(), self.selection) {
-            (ToolKind::Shape | ToolKind::Point | ToolKind::Curve | ToolKind::Draw, Selection::Curve(_)) => {
-                false
-            }
+            (
+                ToolKind::Shape | ToolKind::Point | ToolKind::Curve | ToolKind::Draw | ToolKind::Divide,
+                Selection::Curve(_),
+            ) => false,
             (_, Selection::Curve(_)) => true,
-            (kind, Selection::Point(_)) => kind == ToolKind::Curve,
+            (kind, Selection::Point(_)) => matches!(kind, ToolKind::Curve | ToolKind::Divide),
             // Which part of a surface is meant, a list cannot say.
             _ => false,
         };

@@ -1,38 +1,33 @@
-//! Displacements in the page: the tool that pulls the inside of surfaces, its feet, and their numbers in the properties.
+//! Displacements in the page: the tool that pulls the inside of surfaces, its feet, and what the properties show of them.
 
 use super::dom;
 use super::menu;
 use super::page::{Page, act};
 use crate::input::Modifiers;
-use crate::number;
-use crate::tool::{Drag, Selection, ToolKind};
-use crate::{Highlight, Hit};
+use crate::pick::{Line, pick_line};
+use crate::tool::{Drag, Selection, ToolKind, span};
+use crate::{Highlight, Hit, Wanted, pick_among};
 use ductile_spec::{
-    Blend, Blending, Combination, Displaced, Displacement, Edit, GrabTarget, Hold, LEAST_RANGE, MOST_RANGE,
-    Profile, Pulled, Request, SurfaceId,
+    Blend, Blending, Combination, CurveRole, CurveSpan, Displaced, Displacement, Displacing, Edit, Foot,
+    GrabTarget, Hold, Profile, Pulled, Request, SurfaceId,
 };
 use glam::{Vec2, Vec3};
 
-/// The field of the tool's range, and those of the chosen displacement, in index.html.
-pub(crate) const RANGE: &str = "reach-range";
-pub(crate) const FIELDS: [&str; 4] = ["displaced-x", "displaced-y", "displaced-z", "displaced-range"];
 const PROFILE: &str = "displaced-profile";
 const COMBINATION: &str = "displaced-combination";
 const BLEND: &str = "displaced-blend";
 
-/// Growth of what a range leaves of 1 per pixel of the wheel: a notch is a tenth.
-const WHEEL_GROWTH: f32 = 0.001;
-/// The same for a key.
-const KEY_STEP: f32 = 100.0;
 /// What a pin holds around it, as a part of the surface's radius.
 const PIN: f64 = 0.1;
 
 /// A foot in the picture.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct FootMark {
     pub(crate) surface: SurfaceId,
     pub(crate) number: usize,
     pub(crate) at: Vec3,
+    /// The way of a curve; of a place only that.
+    pub(crate) course: Vec<Vec3>,
 }
 
 /// Fills the selects and listens to them.
@@ -57,53 +52,114 @@ pub(crate) fn listen() {
 
 impl Page {
     /// The feet that can be taken: with the tool in hand all, else none.
-    pub(crate) fn feet(&self) -> Vec<FootMark> {
-        if self.tools.kind() != ToolKind::Displace || !self.scene.has_frame() {
-            return Vec::new();
-        }
-        self.all_feet()
+    fn feet(&self) -> Vec<FootMark> {
+        if self.tools.kind() == ToolKind::Displace { self.all_feet() } else { Vec::new() }
     }
 
     /// All feet of the model.
     pub(crate) fn all_feet(&self) -> Vec<FootMark> {
-        let mark = |foot: &ductile_spec::FootEntry| FootMark {
-            surface: foot.surface,
-            number: foot.number as usize,
-            at: self.scene.vertex(foot.vertex),
-        };
-        self.scene.structure.feet.iter().filter(|_| self.scene.has_frame()).map(mark).collect()
+        let mut marks: Vec<FootMark> = Vec::new();
+        for foot in self.scene.structure.feet.iter().filter(|_| self.scene.has_frame()) {
+            let (surface, number) = (foot.surface, foot.number as usize);
+            let at = self.scene.vertex(foot.vertex);
+            let is_apart = self.foot_of(surface, number).is_some_and(|foot| foot.curve().is_none());
+            match marks.last_mut() {
+                Some(last) if !is_apart && (last.surface, last.number) == (surface, number) => {
+                    last.course.push(at);
+                }
+                _ => marks.push(FootMark { surface, number, at, course: vec![at] }),
+            }
+        }
+        for mark in &mut marks {
+            let curve = match self.foot_of(mark.surface, mark.number) {
+                Some(foot) => foot.curve(),
+                None => self.begun().and_then(|begun| begun.along),
+            };
+            let is_closed = |id| self.document.curves.get(&id).is_some_and(|curve| curve.closed);
+            if curve.is_some_and(is_closed) {
+                mark.course.push(mark.at);
+            }
+        }
+        marks
     }
 
-    /// The foot under the pointer.
-    pub(crate) fn foot_at(&self, at: Vec2) -> Option<FootMark> {
+    /// The foot of a displacement. One that a drag has just made is not in the document yet.
+    fn foot_of(&self, surface: SurfaceId, number: usize) -> Option<&Foot> {
+        let item = self.displaced(surface)?.items.get(number.checked_sub(1)?)?;
+        Some(&item.foot)
+    }
+
+    /// What the drag under way has begun.
+    fn begun(&self) -> Option<Displacing> {
+        match self.hand.drag?.target() {
+            GrabTarget::Displace(begun) => Some(begun),
+            _ => None,
+        }
+    }
+
+    /// The foot under the pointer, and where it is taken.
+    pub(crate) fn foot_at(&self, at: Vec2) -> Option<(FootMark, Vec3)> {
         let reach = self.hand.reach();
+        let (curves, places): (Vec<_>, Vec<_>) =
+            self.feet().into_iter().partition(|foot| foot.course.len() > 1);
         let distance = |foot: &FootMark| self.camera.project(foot.at).map(|place| place.distance(at));
-        let near = self.feet().into_iter().filter_map(|foot| Some((distance(&foot)?, foot)));
+        let near = places.into_iter().filter_map(|foot| Some((distance(&foot)?, foot)));
         let near = near.filter(|(distance, _)| *distance <= reach);
-        near.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, foot)| foot)
+        near.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, foot)| (foot.clone(), foot.at)).or_else(|| {
+            let lines = curves.iter().map(|foot| Line { places: foot.course.clone(), closed: false });
+            let (found, place) = pick_line(&self.scene, &self.camera, at, reach, lines)?;
+            Some((curves.get(found)?.clone(), place))
+        })
     }
 
-    /// Takes hold of a foot, or of a place that becomes one; says whether the tool in hand does that.
+    /// What the tool takes at a place: a curve inside a fair surface, or a place of any.
+    pub(crate) fn displaceable_at(&self, at: Vec2, below: Wanted) -> Option<Hit> {
+        let spans = &self.scene.structure.curves;
+        let curves: Vec<_> =
+            spans.iter().filter(|span| self.canvas_of(span).is_some() && below.curves).collect();
+        let lines = curves
+            .iter()
+            .map(|span| Line { places: self.scene.samples(span.id).collect(), closed: span.closed });
+        let found = pick_line(&self.scene, &self.camera, at, self.hand.reach(), lines);
+        let curve = found.and_then(|(found, at)| Some(Hit::Curve { id: curves.get(found)?.id, at }));
+        curve.or_else(|| pick_among(&self.scene, &self.camera, at, 0.0, Wanted { curves: false, ..below }))
+    }
+
+    /// The fair surface inside of which a curve runs that is not displaced with it yet.
+    fn canvas_of(&self, span: &CurveSpan) -> Option<SurfaceId> {
+        let surface = self.document.surfaces_on(span.id).next().filter(|_| span.role == CurveRole::Inner)?;
+        let is_foot =
+            self.displaced(surface).is_some_and(|displaced| displaced.curves().any(|id| id == span.id));
+        (!is_foot).then_some(surface)
+    }
+
+    /// The displacement that a drag of what was hit would begin.
+    pub(super) fn displacing(&self, hit: &Hit) -> Option<Displacing> {
+        let (surface, along) = match *hit {
+            Hit::Surface { id, .. } => (id, None),
+            Hit::Curve { id, .. } => (self.canvas_of(span(&self.scene.structure, id)?)?, Some(id)),
+            _ => return None,
+        };
+        let around = self.tools.options().around;
+        let (range, direction) = (around.range, around.direction());
+        Some(Displacing { surface, at: hit.at().as_dvec3(), along, range, direction })
+    }
+
+    /// Takes hold of a foot, or of what becomes one; says whether the tool in hand does that.
     pub(crate) fn grab_foot(&mut self, at: Vec2) -> bool {
         if self.tools.kind() != ToolKind::Displace {
             return false;
         }
-        let range = self.tools.options().range;
-        let (target, anchor, normal) = match (self.foot_at(at), self.thing_at(at)) {
-            (Some(foot), _) => {
-                (GrabTarget::Foot { surface: foot.surface, number: foot.number }, foot.at, None)
+        let (target, anchor) = match (self.foot_at(at), self.thing_at(at)) {
+            (Some((foot, place)), _) => {
+                (GrabTarget::Foot { surface: foot.surface, number: foot.number }, place)
             }
-            (None, Some(Hit::Surface { id, at, normal, .. })) => {
-                (GrabTarget::Displace { surface: id, at: at.as_dvec3(), range }, at, Some(normal))
-            }
-            _ => return true,
+            (None, hit) => match hit.and_then(|hit| Some((self.displacing(&hit)?, hit.at()))) {
+                Some((begun, place)) => (GrabTarget::Displace(begun), place),
+                None => return true,
+            },
         };
-        let mut drag = Drag::of_place(target, anchor, at);
-        drag.set_normal(normal);
-        self.schedule.grab(target);
-        self.hand.drag = Some(drag);
-        self.panel.welcome_is_over = true;
-        self.refresh();
+        self.hold(Drag::of_place(target, anchor, at), at);
         true
     }
 
@@ -126,8 +182,9 @@ impl Page {
         if self.tools.kind() != ToolKind::Displace {
             return false;
         }
-        match (self.foot_at(at), self.thing_at(at)) {
-            (Some(foot), _) => self.choose_foot(foot.surface, foot.number),
+        let place = if modifiers.ctrl || modifiers.shift { self.below(at) } else { None };
+        match (self.foot_at(at), place.or_else(|| self.thing_at(at))) {
+            (Some((foot, _)), _) => self.choose_foot(foot.surface, foot.number),
             (None, Some(Hit::Surface { id, at, .. })) if modifiers.ctrl => self.add_foot(id, at),
             (None, Some(Hit::Surface { id, at, .. })) if modifiers.shift => self.pin_place(id, at),
             (None, hit) => {
@@ -169,100 +226,49 @@ impl Page {
         self.request(Request::Edit(Edit::Blending { surface, blending }));
     }
 
-    /// The wheel changes the range while the tool is over a surface; says whether it did.
-    pub(crate) fn turn_range(&mut self, by: Vec2, modifiers: Modifiers) -> bool {
-        let is_over = matches!(self.hand.hover, Some(Hit::Surface { .. })) || self.hand.drag.is_some();
-        let is_meant = self.tools.kind() == ToolKind::Displace && is_over;
-        if !is_meant || modifiers.ctrl || modifiers.shift || !by.is_finite() {
-            return false;
-        }
-        if self.hand.drag.is_none() {
-            self.step_range(by.y);
-        }
-        true
-    }
-
-    /// The keys that change the range.
-    pub(crate) fn range_key(&mut self, name: &str) -> bool {
-        let by = match name {
-            "[" => KEY_STEP,
-            "]" => -KEY_STEP,
-            _ => return false,
-        };
-        let is_meant = self.tools.kind() == ToolKind::Displace;
-        if is_meant {
-            self.step_range(by);
-        }
-        is_meant
-    }
-
-    fn step_range(&mut self, by: f32) {
-        let left = (1.0 - self.tools.options().range) * f64::from((by * WHEEL_GROWTH).clamp(-1.0, 1.0).exp());
-        let range: f64 = format!("{:.2}", 1.0 - left).parse().unwrap_or(0.0);
-        // Adding zero turns -0 into 0.
-        self.tools.options_mut().range = range.clamp(LEAST_RANGE, MOST_RANGE) + 0.0;
-        self.hand.hover_is_stale = true;
-        self.refresh();
-    }
-
-    /// Takes the range that was typed for the tool; says what is wrong with it.
-    pub(crate) fn typed_range(&mut self, text: &str) -> Option<String> {
-        match range(text) {
-            Ok(range) => self.tools.options_mut().range = range,
-            Err(why) => return Some(why),
-        }
-        self.hand.hover_is_stale = true;
-        self.refresh();
-        None
-    }
-
-    /// Asks how far the tool would reach from where it points.
-    pub(crate) fn ask_reach(&mut self) {
-        let Some(Hit::Surface { id, at, .. }) =
-            self.hand.hover.filter(|_| self.tools.kind() == ToolKind::Displace)
-        else {
-            return;
-        };
-        if self.hand.drag.is_some() || !self.scene.header.settled {
-            return;
-        }
-        if let Some(question) = self.reaching.want(id, at.as_dvec3(), self.tools.options().range) {
-            self.schedule.push(question);
-        }
-    }
-
     /// The feet, the chosen one with its way, and how far the tool would reach.
     pub(crate) fn mark_displacements(&self, mark: &mut Highlight) {
         if self.tools.kind() != ToolKind::Displace {
             return;
         }
-        mark.ghost.extend(self.feet().iter().map(|foot| foot.at));
+        for foot in self.feet() {
+            match foot.course.len() {
+                1 => mark.ghost.push(foot.at),
+                _ => mark.sketch.push(foot.course),
+            }
+        }
         if let Some((foot, item)) = self.chosen_item() {
             mark.arms.push((foot.at - item.by.as_vec3(), foot.at, self.hand.drag.is_some()));
         }
         let over = self.hand.cursor.and_then(|at| self.foot_at(at)).filter(|_| self.hand.drag.is_none());
-        if let Some(over) = over {
+        if let Some((over, _)) = over {
             mark.hover = None;
             let item =
                 self.displaced(over.surface).and_then(|displaced| displaced.items.get(over.number - 1));
             let by = item.map_or(Vec3::ZERO, |item| item.by.as_vec3());
             mark.arms.push((over.at - by, over.at, true));
-        } else if let Some(Hit::Surface { id, .. }) = mark.hover {
-            mark.sketch = self.reaching.lines(id).to_vec();
+            mark.ghost_line = over.course;
+        } else if let Some(trial) = self.trial() {
+            mark.sketch.extend_from_slice(self.reaching.lines(trial.surface));
         }
     }
 
-    fn displaced(&self, surface: SurfaceId) -> Option<&Displaced> {
+    pub(super) fn displaced(&self, surface: SurfaceId) -> Option<&Displaced> {
         self.document.displacements.get(&surface)
     }
 
     /// The chosen displacement: where its foot is, and what the document says of it.
-    fn chosen_item(&self) -> Option<(FootMark, &Displacement)> {
+    pub(super) fn chosen_item(&self) -> Option<(FootMark, &Displacement)> {
         let (surface, number) = self.chosen_foot?;
         let item = self.displaced(surface)?.items.get(number.checked_sub(1)?)?;
         let foot =
             self.all_feet().into_iter().find(|foot| (foot.surface, foot.number) == (surface, number))?;
         Some((foot, item))
+    }
+
+    /// Whether a displacement is chosen with the tool in hand.
+    pub(crate) fn has_chosen_foot(&self) -> bool {
+        self.tools.kind() == ToolKind::Displace && self.chosen_foot.is_some()
     }
 
     /// The choice of a foot is forgotten with the foot, and with the selection of its surface.
@@ -311,38 +317,6 @@ impl Page {
         }
     }
 
-    /// What a field of the chosen displacement shows.
-    pub(crate) fn displacement_text(&self, field: &str) -> String {
-        let Some((_, item)) = self.chosen_item() else { return String::new() };
-        match FIELDS.iter().position(|name| *name == field) {
-            Some(index) if index < 3 => number::show(item.by[index]),
-            _ => number::show(item.range),
-        }
-    }
-
-    /// Takes what was typed for the chosen displacement; says what is wrong with it.
-    pub(crate) fn typed_displacement(&mut self, index: usize, text: &str) -> Option<String> {
-        let (foot, item) = self.chosen_item()?;
-        let (surface, number, mut to) = (foot.surface, foot.number, item.clone());
-        let shown = self.displacement_text(FIELDS[index]);
-        if index < 3 {
-            match number::parse(text) {
-                Ok(value) => to.by[index] = value,
-                Err(error) => return Some(error.to_string()),
-            }
-        } else {
-            match range(text) {
-                Ok(value) => to.range = value,
-                Err(why) => return Some(why),
-            }
-        }
-        let value = if index < 3 { to.by[index] } else { to.range };
-        if number::show(value) != shown {
-            self.request(Request::Edit(Edit::ChangeDisplacement { surface, number, to }));
-        }
-        None
-    }
-
     /// Shows the displacements of the selected surface.
     pub(crate) fn show_displacements(&mut self) {
         self.refresh_chosen_foot();
@@ -365,6 +339,8 @@ impl Page {
             dom::append(&list, [&button]);
         }
         dom::show(&dom::element("displaced-item"), self.chosen_item().is_some());
+        self.show_reach();
+        self.ask_reach();
         let has_items = !displaced.items.is_empty();
         dom::show(&dom::element("drop-displacements"), has_items || !displaced.blending.pins.is_empty());
         dom::show(&dom::element("bake"), has_items);
@@ -379,14 +355,5 @@ impl Page {
             Blend::Eta(_) => 2,
         };
         menu::show(BLEND, Some(place), None);
-    }
-}
-
-/// A range that was typed, or what is wrong with it.
-fn range(text: &str) -> Result<f64, String> {
-    match number::parse(text) {
-        Ok(value) if (LEAST_RANGE..=MOST_RANGE).contains(&value) => Ok(value),
-        Ok(_) => Err(format!("A range lies between {LEAST_RANGE} and {MOST_RANGE}.")),
-        Err(error) => Err(error.to_string()),
     }
 }

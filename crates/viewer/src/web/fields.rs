@@ -2,11 +2,10 @@
 
 use super::cage;
 use super::density;
-use super::displace;
 use super::dom;
 use super::fill;
 use super::page::{Page, act};
-use super::{extent, legend, normal, options, ribbon, shadow, tangent};
+use super::{extent, legend, normal, options, reach, ribbon, shadow, tangent};
 use crate::number;
 use crate::tool::Selection;
 use ductile_spec::{Edit, PointId, Request};
@@ -33,13 +32,15 @@ pub(crate) fn listen() {
     for id in legend::FIELDS {
         on_field(id, move |page, text| page.typed_legend(id, text));
     }
-    for (index, id) in displace::FIELDS.into_iter().enumerate() {
+    for (index, id) in reach::CHOSEN.into_iter().enumerate() {
         on_field(id, move |page, text| page.typed_displacement(index, text));
     }
     for (index, id) in shadow::FIELDS.into_iter().enumerate() {
         on_field(id, move |page, text| page.typed_shadow(index, text));
     }
-    on_field(displace::RANGE, Page::typed_range);
+    for (field, id) in reach::TOOL.into_iter().enumerate() {
+        on_field(id, move |page, text| page.typed_reach(field, text));
+    }
     on_field(fill::RESOLUTION, Page::typed_fill_resolution);
     on_field(ribbon::FIELD, Page::typed_ribbon);
     on_field(extent::FIELD, Page::typed_loop_radius);
@@ -100,16 +101,10 @@ impl Page {
             .chain(normal::FIELDS)
             .chain(density::FIELDS)
             .chain(cage::FIELDS)
-            .chain(displace::FIELDS)
+            .chain(reach::CHOSEN)
+            .chain(reach::TOOL)
             .chain(shadow::FIELDS)
-            .chain([
-                ribbon::FIELD,
-                extent::FIELD,
-                options::FIELD,
-                options::ANGLE,
-                displace::RANGE,
-                fill::RESOLUTION,
-            ])
+            .chain([ribbon::FIELD, extent::FIELD, options::FIELD, options::ANGLE, fill::RESOLUTION])
         {
             self.fill_field(&dom::element_as(id), false);
         }
@@ -139,8 +134,8 @@ impl Page {
             (options::FIELD, _) => self.tube_radius_text(),
             (options::ANGLE, _) => self.join_angle_text(),
             (fill::RESOLUTION, _) => self.fill_resolution_text(),
-            (displace::RANGE, _) => number::show(self.tools.options().range),
-            (field, _) if displace::FIELDS.contains(&field) => self.displacement_text(field),
+            (field, _) if reach::TOOL.contains(&field) => self.reach_text(field),
+            (field, _) if reach::CHOSEN.contains(&field) => self.displacement_text(field),
             (field, _) if shadow::FIELDS.contains(&field) => self.shadow_text(field),
             (extent::FIELD, Selection::Curve(_)) => self.loop_radius_text(),
             (ribbon::FIELD, Selection::Curve(_)) => self.ribbon_text(),

@@ -161,11 +161,18 @@ impl Page {
     pub(crate) fn thing_at(&self, at: Vec2) -> Option<Hit> {
         let wanted = self.wanted();
         let among = |wanted| pick_among(&self.scene, &self.camera, at, self.hand.reach(), wanted);
-        if self.tools.kind() == ToolKind::Ribbon {
+        match self.tools.kind() {
             // It is about curves: their points do not stand before them.
-            return among(Wanted { points: false, ..wanted }).or_else(|| among(wanted));
+            ToolKind::Ribbon => among(Wanted { points: false, ..wanted }).or_else(|| among(wanted)),
+            ToolKind::Displace => self.displaceable_at(at, wanted),
+            _ => self.cage_part_at(at, among(wanted)),
         }
-        self.cage_part_at(at, among(wanted))
+    }
+
+    /// The surface under the pointer, whatever lies on it.
+    pub(crate) fn below(&self, at: Vec2) -> Option<Hit> {
+        let below = Wanted { points: false, curves: false, ..Wanted::ALL };
+        pick_among(&self.scene, &self.camera, at, 0.0, below)
     }
 
     /// What the tool in hand could take, among what is shown.
@@ -176,6 +183,7 @@ impl Page {
             points: look.skeleton && kind.wants_points(),
             curves: look.skeleton && kind.wants_curves(),
             surfaces: look.surface && kind.wants_surfaces(),
+            hidden: kind.sees_through(),
             except: None,
         }
     }
@@ -307,10 +315,14 @@ impl Page {
             self.refresh();
             return;
         }
-        let Some(hit) = self.thing_at(at) else { return };
-        let mut drag = Drag::begin(&hit, at);
-        let below = Wanted { points: false, curves: false, ..Wanted::ALL };
-        if let Some(Hit::Surface { normal, .. }) = pick_among(&self.scene, &self.camera, at, 0.0, below) {
+        if let Some(hit) = self.thing_at(at) {
+            self.hold(Drag::begin(&hit, at), at);
+        }
+    }
+
+    /// A drag begins.
+    pub(crate) fn hold(&mut self, mut drag: Drag, at: Vec2) {
+        if let Some(Hit::Surface { normal, .. }) = self.below(at) {
             drag.set_normal(Some(normal));
         }
         self.schedule.grab(drag.target());
@@ -399,7 +411,9 @@ impl Page {
         }
         if self.hand.hover_view.is_none() && self.hand.hover_arm.is_none() {
             let kind = self.tools.kind();
-            self.hand.hover = self.thing_at(at).filter(|hit| kind.takes(hit, &self.scene.structure));
+            self.hand.hover = self
+                .thing_at(at)
+                .filter(|hit| kind.takes(hit, &self.scene.structure) && self.could_divide(hit));
             self.hand.hover_rim = self.rim_at(at);
         }
         self.ask_meeting();

@@ -83,6 +83,7 @@ impl Page {
             let out = Object::new();
             put(&out, "surface", foot.surface.0);
             put(&out, "number", number(foot.number));
+            put(&out, "places", number(foot.course.len()));
             put(&out, "at", triple(foot.at));
             put(&out, "screen", self.on_screen(foot.at));
             JsValue::from(out)

@@ -134,6 +134,11 @@ impl Page {
             self.extrude();
             return;
         }
+        let splits = matches!(self.tools.kind(), ToolKind::Cage | ToolKind::Divide);
+        if name == "x" && splits && self.hand.drag.is_none() {
+            self.begin_split();
+            return;
+        }
         if let Some(kind) = ToolKind::of_key(&name).filter(|_| self.hand.drag.is_none()) {
             self.choose_tool(kind);
             return;

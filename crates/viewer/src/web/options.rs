@@ -25,7 +25,7 @@ impl Page {
         dom::show(&dom::element("tube"), kind == ToolKind::Merge);
         let has_angle = self.tools.options().ribbon && !self.tools.options().smooth;
         dom::show(&dom::element("join"), kind == ToolKind::Trim && has_angle);
-        dom::show(&dom::element("reach"), kind == ToolKind::Displace);
+        self.show_reach();
         self.show_fill_option();
         any |= self.show_cage_option();
         any |= self.show_ribbon_option();

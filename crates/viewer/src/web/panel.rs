@@ -122,17 +122,16 @@ impl Page {
 
     fn show_hint(&self) {
         let hint = match &self.hand.drag {
+            None if self.has_chosen_foot() => "Ctrl-click: one more place goes along. Shift-click: a pin.",
             None => &self.why_no_loop().unwrap_or_else(|| self.tools.hint().to_owned()),
-            Some(drag) if drag.lock().is_some() => {
-                "Along the axis. The same key frees it again, Esc puts everything back."
-            }
-            Some(_) => {
-                "Shift: along the normal · X, Y, Z: along an axis · Ctrl: on the grid · Esc: everything back"
-            }
+            Some(drag) if drag.lock().is_some() => "Along the axis. The same key frees it, Esc: all back.",
+            Some(_) => "Shift: normal · X, Y, Z: axis · Ctrl: grid · Esc: all back",
         };
         self.notices.hint(hint);
         for kind in ToolKind::ALL {
-            let chosen = kind == self.tools.kind();
+            let in_hand =
+                if self.tools.kind() == ToolKind::Divide { ToolKind::Cage } else { self.tools.kind() };
+            let chosen = kind == in_hand;
             let button = dom::element(&format!("tool-{}", kind.word()));
             dom::attribute(&button, "aria-pressed", if chosen { "true" } else { "false" });
         }
@@ -246,6 +245,7 @@ impl Page {
             Selection::Edge { .. } | Selection::Face { .. } => true,
             _ => false,
         };
+        dom::show(&dom::element("divide"), is_of_cage);
         dom::show(&dom::element("release"), hangs && !is_of_cage);
         dom::show(&dom::element("delete"), self.selection != Selection::None && !hangs && !is_of_cage);
         self.show_tangent();

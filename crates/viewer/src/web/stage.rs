@@ -301,6 +301,7 @@ impl Page {
             ToolKind::Merge | ToolKind::Trim => self.mark_places(&mut mark),
             ToolKind::Displace => self.mark_displacements(&mut mark),
             ToolKind::Fill => self.mark_loop(&mut mark),
+            ToolKind::Divide => self.mark_split(&mut mark),
             ToolKind::Shadow => self.mark_shadow(&mut mark),
         }
         self.mark_seam(&mut mark);

@@ -3,7 +3,7 @@
 use super::page::Page;
 use crate::input::Modifiers;
 use crate::tool::{Aim, Pick, Place, Selection, Surroundings, ToolKind, stretch, ties, tube};
-use crate::{Highlight, Hit, RimHit, Tinted, Wanted, closest_places, pick_among};
+use crate::{Highlight, Hit, RimHit, Tinted, closest_places};
 use ductile_spec::SurfaceId;
 use glam::{Vec2, Vec3};
 
@@ -16,8 +16,7 @@ const DROPS: usize = 32;
 impl Page {
     /// The surface under the pointer, or, beside its edge, the one nearest to the thing that was hit.
     pub(crate) fn surface_at(&self, at: Vec2, hit: Option<&Hit>) -> Option<SurfaceId> {
-        let below = Wanted { points: false, curves: false, ..Wanted::ALL };
-        match pick_among(&self.scene, &self.camera, at, 0.0, below) {
+        match self.below(at) {
             Some(Hit::Surface { id, .. }) => Some(id),
             _ => hit.and_then(|hit| self.scene.surface_near(hit.at())),
         }
@@ -40,8 +39,7 @@ impl Page {
     pub(crate) fn sketch(&mut self, at: Vec2) {
         let Some(mut stroke) = self.hand.stroke.take() else { return };
         if stroke.wants(at) {
-            let below = Wanted { points: false, curves: false, ..Wanted::ALL };
-            stroke.add(at, pick_among(&self.scene, &self.camera, at, 0.0, below));
+            stroke.add(at, self.below(at));
         }
         self.hand.stroke = Some(stroke);
     }
