@@ -193,6 +193,7 @@ impl Page {
         };
         dom::show(&dom::element("face-properties"), is_face);
         dom::show(&dom::element("edge-properties"), is_edge);
+        dom::show(&dom::element("rim-curve"), self.is_at_rim());
         let caged = self.caged();
         dom::show(&dom::element("cage-properties"), caged.is_some());
         let Some((_, cage)) = caged else { return };
@@ -313,9 +314,23 @@ impl Page {
                     self.request(Request::Edit(Edit::SplitEdge { surface, ends, at: 0.5 }));
                 }
             }
+            "rim-curve" => {
+                if let Selection::Edge { surface, ends } = self.selection {
+                    self.request(Request::Edit(Edit::Rim { surface, ends, between: None }));
+                }
+            }
             _ => return false,
         }
         true
+    }
+
+    /// Whether the selected edge is one at which its cage ends.
+    fn is_at_rim(&self) -> bool {
+        let (Selection::Edge { ends: [a, b], .. }, Some((_, cage))) = (self.selection, self.caged()) else {
+            return false;
+        };
+        let rim = cage.rim();
+        [(a, b), (b, a)].iter().any(|(from, to)| rim.get(from).is_some_and(|edge| edge.to == *to))
     }
 
     /// Extrudes the selected face.

@@ -280,18 +280,16 @@ impl Page {
             }
             Selection::Curve(id) => {
                 let Some(span) = span(structure, id) else { return Vec::new() };
-                let role = match span.role {
-                    CurveRole::Free => "free",
-                    CurveRole::Boundary => "boundary of a surface",
-                    CurveRole::Inner => "inside a surface",
+                let curve = self.document.curves.get(&id);
+                let role = match (span.role, curve.and_then(|curve| curve.rim)) {
+                    (_, Some(surface)) => format!("rim of surface {}", surface.0),
+                    (CurveRole::Free, None) => "free".to_owned(),
+                    (CurveRole::Boundary, None) => "boundary of a surface".to_owned(),
+                    (CurveRole::Inner, None) => "inside a surface".to_owned(),
                 };
-                let through = self.document.curves.get(&id).map_or(0, |curve| curve.through.len());
+                let through = curve.map_or(0, |curve| curve.through.len());
                 let course = if span.closed { "closed" } else { "open" };
-                vec![
-                    ("Role", role.to_owned()),
-                    ("Course", course.to_owned()),
-                    ("Points", through.to_string()),
-                ]
+                vec![("Role", role), ("Course", course.to_owned()), ("Points", through.to_string())]
             }
             Selection::Edge { .. } | Selection::Face { .. } => Vec::new(),
             Selection::Surface(_) | Selection::None => self.summary_shown().map(topology).unwrap_or_default(),
