@@ -89,7 +89,7 @@ pub struct Wanted {
     pub curves: bool,
     /// Surfaces. They hide what is behind them even if they are not wanted.
     pub surfaces: bool,
-    /// Curves that a surface hides, too, where none is in sight.
+    /// Points and curves that a surface hides, too, where none is in sight.
     pub hidden: bool,
     /// A point that is passed over: the one in the hand, when it looks for another to snap to.
     pub except: Option<PointId>,
@@ -119,9 +119,12 @@ pub fn pick_among(
         return None;
     }
     let aim = Aim { scene, camera, cursor, reach_px };
-    let point = if wanted.points { aim.point(wanted.except) } else { None };
-    point
-        .or_else(|| if wanted.curves { aim.curve(wanted.hidden) } else { None })
+    let mark = |hidden| {
+        let point = if wanted.points { aim.point(wanted.except, hidden) } else { None };
+        point.or_else(|| if wanted.curves { aim.curve(hidden) } else { None })
+    };
+    mark(false)
+        .or_else(|| if wanted.hidden { mark(true) } else { None })
         .or_else(|| if wanted.surfaces { aim.surface() } else { None })
 }
 
@@ -144,7 +147,7 @@ pub(crate) fn pick_line(
         let Near { distance_px, depth, at } = aim.nearest_on(line.places.into_iter(), line.closed)?;
         Some(Candidate { distance_px, depth, at, what: number })
     });
-    aim.first_visible(candidates.collect()).map(|found| (found.what, found.at))
+    aim.taken(candidates.collect(), false).map(|found| (found.what, found.at))
 }
 
 /// Something within reach.
@@ -172,14 +175,15 @@ struct Aim<'a> {
 }
 
 impl Aim<'_> {
-    fn point(&self, except: Option<PointId>) -> Option<Hit> {
+    fn point(&self, except: Option<PointId>, hidden: bool) -> Option<Hit> {
         let points = self.scene.points().filter(|(entry, _)| Some(entry.id) != except);
         let candidates = points.filter_map(|(entry, at)| {
             let distance_px = self.camera.project(at)?.distance(self.cursor);
             let depth = self.camera.depth(at);
             (distance_px <= self.reach_px).then_some(Candidate { distance_px, depth, at, what: entry.id })
         });
-        self.first_visible(candidates.collect()).map(|found| Hit::Point { id: found.what, at: found.at })
+        let found = self.taken(candidates.collect(), hidden);
+        found.map(|found| Hit::Point { id: found.what, at: found.at })
     }
 
     fn curve(&self, hidden: bool) -> Option<Hit> {
@@ -188,9 +192,7 @@ impl Aim<'_> {
             let Near { distance_px, depth, at } = self.nearest_on(samples, span.closed)?;
             Some(Candidate { distance_px, depth, at, what: span.id })
         });
-        let candidates: Vec<_> = candidates.collect();
-        let nearest = || candidates.iter().min_by(|a, b| a.distance_px.total_cmp(&b.distance_px)).copied();
-        let found = self.first_visible(candidates.clone()).or_else(|| nearest().filter(|_| hidden));
+        let found = self.taken(candidates.collect(), hidden);
         found.map(|found| Hit::Curve { id: found.what, at: found.at })
     }
 
@@ -223,13 +225,15 @@ impl Aim<'_> {
         part * a / (part * a + (1.0 - part) * b)
     }
 
-    /// The nearest candidate that no surface hides; of those on one pixel, the front one.
-    fn first_visible<T: Copy>(&self, mut candidates: Vec<Candidate<T>>) -> Option<Candidate<T>> {
+    /// The nearest candidate that no surface hides; of those on one pixel, the front one. If all are hidden, the nearest, where
+    /// that will do.
+    fn taken<T: Copy>(&self, mut candidates: Vec<Candidate<T>>, hidden: bool) -> Option<Candidate<T>> {
         candidates.sort_by(|a, b| {
             let pixels = a.distance_px.round().total_cmp(&b.distance_px.round());
             pixels.then(a.depth.total_cmp(&b.depth))
         });
-        candidates.iter().take(CANDIDATES).find(|c| !self.is_hidden(c.at)).copied()
+        let visible = candidates.iter().take(CANDIDATES).find(|c| !self.is_hidden(c.at));
+        visible.or_else(|| candidates.first().filter(|_| hidden)).copied()
     }
 
     /// Whether a surface lies clearly before a place.

@@ -67,6 +67,26 @@ fn a_curve_that_a_surface_hides_is_taken_by_those_who_see_through_unless_one_is_
 }
 
 #[test]
+fn a_point_that_a_surface_hides_comes_after_all_that_is_in_sight() {
+    let scene = plate();
+    for camera in [from_above(false), from_above(true)] {
+        let under = camera.project(Vec3::new(0.5, -0.5, -0.7)).unwrap();
+        let through = Wanted { hidden: true, surfaces: false, ..Wanted::ALL };
+        let among = |reach, wanted| pick_among(&scene, &camera, under, reach, wanted);
+        assert_eq!(among(8.0, Wanted { hidden: false, ..through }), None);
+        let found = among(8.0, through);
+        assert!(matches!(found, Some(Hit::Point { id: PointId(3), .. })), "{found:?}");
+        // A curve that is in sight is meant before it, and so is another point.
+        let curve = among(400.0, Wanted { except: Some(PointId(1)), ..through });
+        assert!(matches!(curve, Some(Hit::Point { id: PointId(2), .. })), "{curve:?}");
+        let beside = camera.project(Vec3::new(0.5, 0.0, 0.0)).unwrap().distance(under) + 1.0;
+        let others =
+            pick_among(&scene, &camera, under, beside, Wanted { except: Some(PointId(1)), ..through });
+        assert!(matches!(others, Some(Hit::Curve { id: CurveId(1), .. })), "{others:?}");
+    }
+}
+
+#[test]
 fn what_a_surface_hides_is_left_to_it() {
     let scene = plate();
     for camera in [from_above(false), from_above(true)] {

@@ -158,10 +158,10 @@ impl ToolKind {
         !matches!(self, Self::Sheet | Self::Sweep | Self::Match | Self::Fill | Self::Ribbon | Self::Divide)
     }
 
-    /// Whether it takes curves that a surface hides, where none is in sight: it has no business with surfaces.
+    /// Whether it takes points and curves that a surface hides, where none is in sight: it has no business with surfaces.
     #[must_use]
     pub fn sees_through(self) -> bool {
-        matches!(self, Self::Sheet | Self::Sweep | Self::Match | Self::Fill)
+        matches!(self, Self::Sheet | Self::Sweep | Self::Match | Self::Fill | Self::Divide)
     }
 
     /// Whether it acts on a whole region rather than at a place.
