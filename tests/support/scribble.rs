@@ -94,7 +94,7 @@ fn request(dice: &mut Dice, model: &Model) -> Request {
 /// What would be displaced from a place: on one side of the model a curve, here and there in a direction.
 fn displacing(model: &Model, surface: SurfaceId, at: DVec3, range: f64) -> Displacing {
     let curves = model.document.surfaces.get(&surface).into_iter().flat_map(|s| &s.skeleton.curves);
-    let along = curves.map(|embedded| embedded.curve).last().filter(|_| at.x > 0.0);
+    let along = curves.map(|embedded| embedded.curve).next_back().filter(|_| at.x > 0.0);
     let direction = (at.y > 0.0).then_some(Stretch { along: at, times: 2.0 + at.z });
     Displacing { surface, at, along, range, direction }
 }

@@ -16,7 +16,7 @@ mod label;
 mod masks;
 mod patch;
 #[cfg(test)]
-mod property;
+mod property_test;
 mod tessellation;
 #[cfg(test)]
 pub(crate) mod tests;

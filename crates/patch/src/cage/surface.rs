@@ -291,6 +291,6 @@ fn quad_positions(cage: &Links, rule: Split, positions: &[DVec3]) -> Vec<DVec3> 
 }
 
 #[cfg(test)]
-mod property;
+mod property_test;
 #[cfg(test)]
 mod tests;
