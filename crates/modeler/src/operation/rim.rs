@@ -60,11 +60,10 @@ fn whole(rim: &BTreeMap<PointId, RimEdge>, from: PointId) -> (Vec<PointId>, bool
     let before: BTreeMap<PointId, PointId> = rim.iter().map(|(from, edge)| (edge.to, *from)).collect();
     let turns = |point: PointId| rim.get(&point).is_none_or(|edge| edge.turns);
     let mut first = from;
-    while !turns(first) {
+    for _ in 0..rim.len() {
         match before.get(&first) {
-            Some(point) if *point != from => first = *point,
-            Some(_) => break,
-            None => break,
+            Some(point) if *point != from && !turns(first) => first = *point,
+            _ => break,
         }
     }
     let closes = !turns(first);
