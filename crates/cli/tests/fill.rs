@@ -41,13 +41,8 @@ fn distance(a: &Value, b: &Value) -> f64 {
     numbers(a).iter().zip(numbers(b)).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
 }
 
-/// A bicubic patch over a square with a corner at the given place, as ribbons; squares side by side share a whole side.
-fn square(x: f64, y: f64) -> Value {
-    let height = |x: f64, y: f64| 0.1 * x * x - 0.2 * x * y;
-    let at = |u: usize, v: usize| {
-        let (x, y) = (x + u as f64 / 3.0, y + v as f64 / 3.0);
-        json!([x, y, height(x, y)])
-    };
+/// The ribbons of a bicubic patch with such control points, numbered along both ways.
+fn ribbons_of(at: &dyn Fn(usize, usize) -> Value) -> Value {
     let rows = |of: &dyn Fn(usize, usize) -> Value| {
         let row = |k: usize| (0..4).map(|j| of(j, k)).collect::<Vec<_>>();
         json!({ "row0": row(0), "row1": row(1) })
@@ -58,6 +53,16 @@ fn square(x: f64, y: f64) -> Value {
         rows(&|j, k| at(3 - j, 3 - k)),
         rows(&|j, k| at(k, 3 - j)),
     ] })
+}
+
+/// A bicubic patch over a square with a corner at the given place, as ribbons; squares side by side share a whole side.
+fn square(x: f64, y: f64) -> Value {
+    let height = |x: f64, y: f64| 0.1 * x * x - 0.2 * x * y;
+    let at = |u: usize, v: usize| {
+        let (x, y) = (x + u as f64 / 3.0, y + v as f64 / 3.0);
+        json!([x, y, height(x, y)])
+    };
+    ribbons_of(&at)
 }
 
 #[test]
@@ -170,16 +175,7 @@ fn saddle([x0, x1]: [f64; 2], [y0, y1]: [f64; 2], lift: f64) -> Value {
         let is_inner = (1..3).contains(&u) && (1..3).contains(&v);
         json!([x, y, 0.1 * square - 0.2 * x * y + if is_inner { lift } else { 0.0 }])
     };
-    let rows = |of: &dyn Fn(usize, usize) -> Value| {
-        let row = |k: usize| (0..4).map(|j| of(j, k)).collect::<Vec<_>>();
-        json!({ "row0": row(0), "row1": row(1) })
-    };
-    json!({ "ribbons": [
-        rows(&|j, k| at(j, k)),
-        rows(&|j, k| at(3 - k, j)),
-        rows(&|j, k| at(3 - j, 3 - k)),
-        rows(&|j, k| at(k, 3 - j)),
-    ] })
+    ribbons_of(&at)
 }
 
 /// One long side meets two short ones; no mesh is asked for.
