@@ -5,6 +5,7 @@
 //! quads of a cage look alike.
 
 use super::error::CageError;
+use super::links::name;
 use super::surface::CageSurface;
 use crate::jet::Jet;
 use std::collections::BTreeMap;
@@ -18,21 +19,38 @@ const MOST_NUMBERS: usize = 1 << 24;
 /// The table of all quads that look alike.
 #[derive(Clone, Debug)]
 pub(super) struct Pattern {
-    slots: usize,
-    /// For each pair of samples and each slot the weights of both, those of their derivatives by `u`, and by `v`.
+    /// Its blocks: the inside of the quad, its four sides, its four corners.
+    blocks: Vec<Block>,
+}
+
+/// Samples that are evaluated together, and what enters them: towards a side or a corner the weights of what lies across vanish.
+#[derive(Clone, Debug)]
+pub(super) struct Block {
+    /// The slots that enter a sample of it, in their order.
+    pub(super) slots: Vec<u32>,
+    /// For each pair of samples and each of these slots the weights of both, those of their derivatives by `u`, and by `v`.
     weights: Vec<[f64x2; 3]>,
 }
 
-impl Pattern {
-    /// The weights of a pair of samples, slot by slot.
+impl Block {
+    /// The weights of each pair of samples, slot by slot.
     #[inline]
-    pub(super) fn weights(&self, pair: usize) -> &[[f64x2; 3]] {
-        &self.weights[pair * self.slots..(pair + 1) * self.slots]
+    pub(super) fn pairs(&self) -> std::slice::ChunksExact<'_, [f64x2; 3]> {
+        // Weights of a vertex sum to one, so that no sample is without.
+        self.weights.chunks_exact(self.slots.len().max(1))
+    }
+}
+
+impl Pattern {
+    /// A block by its number.
+    #[inline]
+    pub(super) fn block(&self, block: u32) -> &Block {
+        &self.blocks[block as usize]
     }
 
     /// How many numbers the table has.
     pub(super) fn number_count(&self) -> usize {
-        3 * LANES * self.weights.len()
+        self.blocks.iter().map(|block| 3 * LANES * block.weights.len()).sum()
     }
 }
 
@@ -42,8 +60,8 @@ type Weight = [f64; 3];
 /// All tables of a surface at one resolution, made as quads ask for them.
 pub(super) struct Tables {
     resolution: usize,
-    /// Nodes in the order of a quad's samples, each pair filled up by repetition.
-    nodes: Vec<(usize, usize)>,
+    /// Nodes of each block in the order of a quad's samples, each filled up to pairs by repetition.
+    blocks: Vec<Vec<(usize, usize)>>,
     /// For a valence the weights of each node of the grid as a corner sees it.
     corners: BTreeMap<usize, Vec<Vec<Weight>>>,
     known: BTreeMap<Vec<u64>, usize>,
@@ -54,12 +72,13 @@ pub(super) struct Tables {
 impl Tables {
     pub(super) fn new(resolution: usize) -> Self {
         let inner = 1..resolution;
-        let mut nodes = Vec::new();
+        let mut blocks = Vec::new();
         let mut run = |part: &mut dyn Iterator<Item = (usize, usize)>| {
-            nodes.extend(part);
+            let mut nodes: Vec<_> = part.collect();
             while !nodes.len().is_multiple_of(LANES) {
                 nodes.extend(nodes.last().copied());
             }
+            blocks.push(nodes);
         };
         let last = resolution;
         run(&mut inner.clone().flat_map(|q| (1..last).map(move |p| (p, q))));
@@ -71,7 +90,7 @@ impl Tables {
             run(&mut std::iter::once(corner));
         }
         let (corners, known) = (BTreeMap::new(), BTreeMap::new());
-        Self { resolution, nodes, corners, known, patterns: Vec::new(), numbers: 0 }
+        Self { resolution, blocks, corners, known, patterns: Vec::new(), numbers: 0 }
     }
 
     pub(super) fn into_patterns(self) -> Vec<Pattern> {
@@ -122,13 +141,18 @@ impl Tables {
         slots: usize,
         shares: &[Vec<Vec<(usize, f64)>>],
     ) -> Result<Pattern, CageError> {
-        self.count(3 * slots * self.nodes.len())?;
+        self.count(3 * slots * self.blocks.iter().map(Vec::len).sum::<usize>())?;
         for points in shares {
             self.know_corner(surface, points.len() / 2)?;
         }
+        let blocks = self.blocks.iter().map(|nodes| self.block(nodes, slots, shares));
+        Ok(Pattern { blocks: blocks.collect() })
+    }
+
+    fn block(&self, nodes: &[(usize, usize)], slots: usize, shares: &[Vec<Vec<(usize, f64)>>]) -> Block {
         let last = self.resolution;
-        let mut weights = vec![[0.0; 3 * LANES]; slots * self.nodes.len() / LANES];
-        for (node, &(p, q)) in self.nodes.iter().enumerate() {
+        let mut weights = vec![[0.0; 3 * LANES]; slots * nodes.len() / LANES];
+        for (node, &(p, q)) in nodes.iter().enumerate() {
             let row = &mut weights[node / LANES * slots..][..slots];
             let lane = node % LANES;
             let local = [(p, q), (q, last - p), (last - p, last - q), (last - q, p)];
@@ -144,8 +168,11 @@ impl Tables {
                 }
             }
         }
-        let weights = weights.into_iter().map(|[a, b, c, d, e, f]| [[a, b], [c, d], [e, f]].map(f64x2::new));
-        Ok(Pattern { slots, weights: weights.collect() })
+        let enters = |slot: &usize| weights.iter().skip(*slot).step_by(slots).flatten().any(|w| *w != 0.0);
+        let entering: Vec<usize> = (0..slots).filter(enters).collect();
+        let kept = weights.chunks_exact(slots).flat_map(|row| entering.iter().map(|&slot| row[slot]));
+        let kept = kept.map(|[a, b, c, d, e, f]| [[a, b], [c, d], [e, f]].map(f64x2::new)).collect();
+        Block { slots: entering.into_iter().map(name).collect(), weights: kept }
     }
 
     /// Sees to it that the weights of a valence are there.

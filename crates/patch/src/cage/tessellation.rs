@@ -23,8 +23,8 @@ const MOST_SAMPLES: usize = 1 << 26;
 /// Samples of one quad that lie one after the other in the result and in the table.
 #[derive(Clone, Copy, Debug)]
 struct Run {
-    /// First pair of nodes in the table.
-    pair: u32,
+    /// Their block in the table.
+    block: u32,
     /// First sample.
     sample: u32,
     count: u32,
@@ -43,6 +43,8 @@ struct Fixed {
     /// For each quad where its runs begin.
     first_run: Vec<u32>,
     runs: Vec<Run>,
+    /// All quads, those with the same pattern one after the other: a table is read from memory once, not for each quad.
+    order: Vec<u32>,
     /// For each vertex of the quads, the quads that it enters.
     first_user: Vec<u32>,
     users: Vec<u32>,
@@ -86,6 +88,8 @@ impl Tessellation {
         let (first_run, runs) = layout.runs(surface);
         let triangles = layout.triangles(surface);
         let stamp = vec![0; pattern_of.len()];
+        let mut order: Vec<u32> = (0..name(pattern_of.len())).collect();
+        order.sort_by_key(|&quad| pattern_of[quad as usize]);
         let fixed = Fixed {
             resolution,
             patterns: tables.into_patterns(),
@@ -94,6 +98,7 @@ impl Tessellation {
             slots,
             first_run,
             runs,
+            order,
             first_user,
             users,
             triangles,
@@ -146,9 +151,7 @@ impl Tessellation {
     pub fn evaluate(&mut self, vertices: &[DVec3]) {
         let fixed = Arc::clone(&self.fixed);
         assert_eq!(vertices.len() + 1, fixed.first_user.len(), "one position for each vertex of the quads");
-        for quad in 0..fixed.pattern_of.len() {
-            self.evaluate_quad(&fixed, quad, vertices);
-        }
+        self.evaluate_quads(&fixed, &fixed.order, vertices);
     }
 
     /// Evaluates what the moved vertices enter, and says how many samples that were. `moved` is what [`CageSurface::move_to`] says.
@@ -159,38 +162,45 @@ impl Tessellation {
         let fixed = Arc::clone(&self.fixed);
         assert_eq!(vertices.len() + 1, fixed.first_user.len(), "one position for each vertex of the quads");
         self.batch = self.batch.wrapping_add(1);
-        let mut evaluated = 0;
+        let mut touched = Vec::new();
         for &vertex in moved {
             let vertex = vertex as usize;
-            for user in fixed.first_user[vertex]..fixed.first_user[vertex + 1] {
-                let quad = fixed.users[user as usize] as usize;
-                if self.stamp[quad] != self.batch {
-                    self.stamp[quad] = self.batch;
-                    evaluated += self.evaluate_quad(&fixed, quad, vertices);
+            for &quad in
+                &fixed.users[fixed.first_user[vertex] as usize..fixed.first_user[vertex + 1] as usize]
+            {
+                let stamp = &mut self.stamp[quad as usize];
+                if *stamp != self.batch {
+                    *stamp = self.batch;
+                    touched.push(quad);
                 }
             }
         }
-        evaluated
+        touched.sort_unstable_by_key(|&quad| (fixed.pattern_of[quad as usize], quad));
+        self.evaluate_quads(&fixed, &touched, vertices)
     }
 
-    fn evaluate_quad(&mut self, fixed: &Fixed, quad: usize, vertices: &[DVec3]) -> usize {
-        let pattern = &fixed.patterns[fixed.pattern_of[quad] as usize];
-        let slots = &fixed.slots[fixed.first_slot[quad] as usize..fixed.first_slot[quad + 1] as usize];
-        let runs = &fixed.runs[fixed.first_run[quad] as usize..fixed.first_run[quad + 1] as usize];
+    /// Evaluates the samples that belong to these quads, and says how many they are.
+    fn evaluate_quads(&mut self, fixed: &Fixed, quads: &[u32], vertices: &[DVec3]) -> usize {
         let mut evaluated = 0;
-        for run in runs {
-            let (from, count) = (run.sample as usize, run.count as usize);
-            evaluated += count;
-            let positions = self.positions[from..from + count].chunks_mut(LANES);
-            let normals = self.normals[from..from + count].chunks_mut(LANES);
-            for ((pair, positions), normals) in (run.pair as usize..).zip(positions).zip(normals) {
-                let sums = combine(pattern.weights(pair), slots, vertices);
-                let sums = sums.map(f64x2::to_array);
-                for (lane, (position, normal)) in positions.iter_mut().zip(normals).enumerate() {
-                    let at =
-                        |row: usize| DVec3::new(sums[row][lane], sums[row + 1][lane], sums[row + 2][lane]);
-                    *position = at(0);
-                    *normal = unit(at(3).cross(at(6)));
+        let mut entering = Vec::new();
+        for &quad in quads {
+            let quad = quad as usize;
+            let pattern = &fixed.patterns[fixed.pattern_of[quad] as usize];
+            let slots = &fixed.slots[fixed.first_slot[quad] as usize..fixed.first_slot[quad + 1] as usize];
+            let runs = &fixed.runs[fixed.first_run[quad] as usize..fixed.first_run[quad + 1] as usize];
+            for run in runs {
+                let block = pattern.block(run.block);
+                entering.clear();
+                entering.extend(block.slots.iter().map(|&slot| vertices[slots[slot as usize] as usize]));
+                let (from, count) = (run.sample as usize, run.count as usize);
+                evaluated += count;
+                let positions = self.positions[from..from + count].chunks_mut(LANES);
+                let normals = self.normals[from..from + count].chunks_mut(LANES);
+                for ((weights, positions), normals) in block.pairs().zip(positions).zip(normals) {
+                    let sums = combine(weights, &entering);
+                    let [position, normal] = [[sums[0], sums[1], sums[2]], unit_normals(&sums)].map(by_lane);
+                    positions.copy_from_slice(&position[..positions.len()]);
+                    normals.copy_from_slice(&normal[..normals.len()]);
                 }
             }
         }
@@ -200,10 +210,10 @@ impl Tessellation {
 
 /// The coordinates of two samples and of their derivatives: x, y, z, then those by `u`, then by `v`.
 #[inline]
-fn combine(weights: &[[f64x2; 3]], slots: &[u32], vertices: &[DVec3]) -> [f64x2; 9] {
+fn combine(weights: &[[f64x2; 3]], points: &[DVec3]) -> [f64x2; 9] {
     let mut sums = [f64x2::ZERO; 9];
-    for (weights, &slot) in weights.iter().zip(slots) {
-        let point = vertices[slot as usize].to_array().map(f64x2::splat);
+    for (weights, point) in weights.iter().zip(points) {
+        let point = point.to_array().map(f64x2::splat);
         for row in 0..9 {
             sums[row] += weights[row / 3] * point[row % 3];
         }
@@ -211,10 +221,19 @@ fn combine(weights: &[[f64x2; 3]], slots: &[u32], vertices: &[DVec3]) -> [f64x2;
     sums
 }
 
+/// Unit normals of two samples; zero where derivatives span no plane.
 #[inline]
-fn unit(cross: DVec3) -> DVec3 {
-    let length = cross.length();
-    if length > 0.0 { cross / length } else { DVec3::ZERO }
+fn unit_normals(&[_, _, _, ux, uy, uz, vx, vy, vz]: &[f64x2; 9]) -> [f64x2; 3] {
+    let cross = [uy * vz - vy * uz, uz * vx - vz * ux, ux * vy - vx * uy];
+    let length = (cross[0] * cross[0] + cross[1] * cross[1] + cross[2] * cross[2]).sqrt();
+    let has_plane = length.simd_gt(f64x2::ZERO);
+    cross.map(|c| (c / length) & has_plane)
+}
+
+#[inline]
+fn by_lane([x, y, z]: [f64x2; 3]) -> [DVec3; LANES] {
+    let [x, y, z] = [x, y, z].map(f64x2::to_array);
+    std::array::from_fn(|lane| DVec3::new(x[lane], y[lane], z[lane]))
 }
 
 /// For each vertex the quads whose slots hold it.
@@ -271,30 +290,23 @@ impl Layout {
     /// What each quad evaluates: its inside, the edges of which it has the first half-edge, and vertices that no quad before has.
     fn runs(&self, surface: &CageSurface) -> (Vec<u32>, Vec<Run>) {
         let steps = self.resolution - 1;
-        let pairs = |count: usize| count.div_ceil(LANES);
-        let edge_from = pairs(steps * steps);
-        let corner_from = edge_from + 4 * pairs(steps);
         let mut is_done = vec![false; self.vertex.len()];
         let (mut first, mut runs) = (vec![0], Vec::new());
         for (quad, corners) in surface.quads().iter().enumerate() {
             if steps > 0 {
                 let sample = name(self.first_inner + quad * steps * steps);
-                runs.push(Run { pair: 0, sample, count: name(steps * steps) });
+                runs.push(Run { block: 0, sample, count: name(steps * steps) });
                 for side in 0..4 {
                     let (sample, is_first) = self.edge[4 * quad + side];
                     if is_first {
-                        runs.push(Run {
-                            pair: name(edge_from + side * pairs(steps)),
-                            sample,
-                            count: name(steps),
-                        });
+                        runs.push(Run { block: 1 + name(side), sample, count: name(steps) });
                     }
                 }
             }
             for (corner, &vertex) in corners.iter().enumerate() {
                 if !std::mem::replace(&mut is_done[vertex as usize], true) {
                     let sample = self.vertex[vertex as usize];
-                    runs.push(Run { pair: name(corner_from + corner), sample, count: 1 });
+                    runs.push(Run { block: 5 + name(corner), sample, count: 1 });
                 }
             }
             first.push(name(runs.len()));

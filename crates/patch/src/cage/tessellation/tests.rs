@@ -90,6 +90,16 @@ fn quads_that_look_alike_share_a_table() {
     assert!(Tessellation::new(&grid, 4).unwrap().fixed.patterns.len() <= 25);
 }
 
+/// A side lies in the local surfaces of its two ends, a corner in its own; only the inside is blended from all four.
+#[test]
+fn what_lies_across_does_not_enter_a_side() {
+    let torus = surface(&primitive::torus(3.0, 1.0, 12, 8).unwrap(), Map::Smooth, Blend::default());
+    let tessellation = Tessellation::new(&torus, 4).unwrap();
+    let pattern = &tessellation.fixed.patterns[0];
+    let entering: Vec<usize> = (0..9).map(|block| pattern.block(block).slots.len()).collect();
+    assert_eq!(entering, [16, 12, 12, 12, 12, 5, 5, 5, 5]);
+}
+
 #[test]
 fn senseless_sizes_are_refused() {
     let cube = surface(&primitive::cube(1.0).unwrap(), Map::Smooth, Blend::default());
