@@ -270,3 +270,27 @@ fn a_fill_takes_its_planes_from_a_cage_and_stays_smooth_while_either_is_dragged(
     let found = seam(&mut other, [CAGE, fill]);
     assert!(found.gap < 1e-3 && found.angle < 0.5, "opened: {found:?}");
 }
+
+/// A vertex of the rim pulled out by a third of an edge. A polynomial side cannot bend as often as four edges may, so what is left is
+/// told for what it is: as far as the seam's own figures, which look at the surfaces themselves, say.
+#[test]
+fn a_side_that_winds_along_a_rim_has_a_high_degree_and_tells_what_it_misses() {
+    for (by, most) in [(dvec3(0.17, 0.0, 0.0), 1.0), (dvec3(0.0, 0.0, 0.17), 4.5)] {
+        let (mut bench, curves) = fill_beside_a_cage();
+        bench.edit(Edit::Fill {
+            hole: Hole::Near { curve: curves[0], at: None },
+            style: FillStyle::default(),
+        });
+        let fill = *bench.document().fills.last_key_value().unwrap().0;
+        let point = corner(&bench, 1.0, 0.0);
+        let at = bench.document().points[&point];
+        drag(&mut bench, point, at + by, |_| {});
+        let found = seam(&mut bench, [CAGE, fill]);
+        let figures = bench.accept(Request::Seams).seams.unwrap().fills.remove(0);
+        println!("{by}: {found:?}, {figures:?}");
+        assert_eq!(figures.degree, 10);
+        assert!(found.gap < 5e-3 && found.angle < most, "{found:?}");
+        assert!(figures.plane_deviation > 0.8 * found.angle, "{figures:?} {found:?}");
+        assert!(figures.curve_deviation > 0.8 * found.gap, "{figures:?} {found:?}");
+    }
+}

@@ -30,7 +30,13 @@ mod native {
 
     pub(super) fn main() {
         let mut criterion = Criterion::default().sample_size(10).configure_from_args();
-        for (name, n, d) in [("5-sided quintic", 5, 5), ("8-sided cubic", 8, 3), ("8-sided quartic", 8, 4)] {
+        for (name, n, d) in [
+            ("5-sided quintic", 5, 5),
+            ("5-sided septic", 5, 7),
+            ("4-sided of degree 10", 4, 10),
+            ("8-sided cubic", 8, 3),
+            ("8-sided quartic", 8, 4),
+        ] {
             let ring = ribbons(n, d);
             let mut cache = MaskCache::new();
             let patch = filled(&ring, &mut cache);

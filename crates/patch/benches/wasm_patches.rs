@@ -153,6 +153,24 @@ fn five_sided_quintic(criterion: &mut Criterion) {
     s_patch(criterion, "5-sided quintic", 5, 5);
 }
 
+/// What a hole with five sides gets by itself.
+#[wasm_bindgen_bench]
+fn five_sided_septic(criterion: &mut Criterion) {
+    s_patch(criterion, "5-sided septic", 5, 7);
+}
+
+/// What a hole with four sides gets by itself at the rim of a cage.
+#[wasm_bindgen_bench]
+fn four_sided_of_degree_ten(criterion: &mut Criterion) {
+    s_patch(criterion, "4-sided of degree 10", 4, 10);
+}
+
+/// The same with five sides.
+#[wasm_bindgen_bench]
+fn five_sided_of_degree_eight(criterion: &mut Criterion) {
+    s_patch(criterion, "5-sided of degree 8", 5, 8);
+}
+
 #[wasm_bindgen_bench]
 fn eight_sided_cubic(criterion: &mut Criterion) {
     s_patch(criterion, "8-sided cubic", 8, 3);

@@ -58,7 +58,8 @@ pub struct FillRibbon {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FillStyle {
-    /// Degree of the Bézier curves along its sides, 3 to 7; without one it is chosen by the number of sides.
+    /// Degree of the Bézier curves along its sides, 3 to 10; without one it is chosen by the number of sides, and by whether one of them
+    /// winds along several edges of a cage.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub degree: Option<u8>,
     /// How its inside is placed.

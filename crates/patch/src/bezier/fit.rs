@@ -8,12 +8,12 @@ use glam::DVec3;
 use thiserror::Error;
 
 /// Highest degree that is fitted: the normal equations lose four digits for each three degrees.
-pub const MOST_FITTED_DEGREE: usize = 9;
+pub const MOST_FITTED_DEGREE: usize = 10;
 
 /// Why no curve is fitted. Points count from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum FitError {
-    /// Degrees from 1 to 9 are fitted.
+    /// Degrees from 1 to 10 are fitted.
     #[error("a curve of degree {0} cannot be fitted: degrees are 1 to {MOST_FITTED_DEGREE}")]
     Degree(usize),
     /// Take more points, or a lower degree.
@@ -211,7 +211,7 @@ mod tests {
     #[test]
     fn a_straight_line_of_even_steps_is_itself() {
         let line: Vec<DVec3> = (0..=12).map(|k| DVec3::new(1.0, 2.0, -1.0) * f64::from(k)).collect();
-        for degree in 1..=9 {
+        for degree in 1..=10 {
             let fit = fit_curve(&line, degree).unwrap();
             assert!(fit.deviation < 1e-10, "degree {degree}: {:e}", fit.deviation);
             for (j, point) in fit.points.iter().enumerate() {
@@ -245,7 +245,7 @@ mod tests {
         let at = |a: f64| DVec3::new(libm::cos(a), libm::sin(a), 0.3 * a);
         let arc: Vec<DVec3> = (0..=40).map(|k| at(f64::from(k) * 0.03)).collect();
         let along = |a: f64| DVec3::new(-libm::sin(a), libm::cos(a), 0.3);
-        for degree in [3, 4, 5, 7] {
+        for degree in [3, 4, 5, 7, 10] {
             let fit = fit_curve_along(&arc, degree, [along(0.0) * 7.0, along(1.2)]).unwrap();
             assert_eq!((fit.points.len(), fit.points[0], fit.points[degree]), (degree + 1, arc[0], arc[40]));
             let ends = [fit.points[1] - fit.points[0], fit.points[degree] - fit.points[degree - 1]];
@@ -265,7 +265,7 @@ mod tests {
     fn what_determines_no_curve_is_refused() {
         let line = [DVec3::ZERO, DVec3::X, DVec3::new(f64::NAN, 0.0, 0.0), DVec3::ONE];
         assert_eq!(fit_curve(&line, 0), Err(FitError::Degree(0)));
-        assert_eq!(fit_curve(&line, 10), Err(FitError::Degree(10)));
+        assert_eq!(fit_curve(&line, 11), Err(FitError::Degree(11)));
         assert_eq!(fit_curve(&line[..2], 2), Err(FitError::TooFewPoints { points: 2, degree: 2 }));
         assert_eq!(fit_curve(&[], 1), Err(FitError::TooFewPoints { points: 0, degree: 1 }));
         assert_eq!(fit_curve(&line, 2), Err(FitError::NotFinite(2)));

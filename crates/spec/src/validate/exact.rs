@@ -79,8 +79,8 @@ fn validate_fill(id: SurfaceId, fill: &Fill, document: &Document) -> Result<(), 
     limit("sides of a fill", count, MAX_SIDES)?;
     let refuse = |why| Err(Defect::Fill { surface: id, why });
     let FillStyle { degree, resolution, .. } = fill.style;
-    if degree.is_some_and(|degree| !(3..=7).contains(&degree)) {
-        return refuse("its degree must be from 3 to 7");
+    if degree.is_some_and(|degree| !(3..=10).contains(&degree)) {
+        return refuse("its degree must be from 3 to 10");
     }
     if resolution.is_some_and(|resolution| !(1..=64).contains(&resolution)) {
         return refuse("its resolution must be from 1 to 64");

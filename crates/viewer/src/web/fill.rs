@@ -16,7 +16,12 @@ const DEGREE: [&str; 2] = ["new-fill-degree", "fill-degree"];
 const INTERIOR: [&str; 2] = ["new-fill-interior", "fill-interior"];
 const JOIN: [&str; 2] = ["new-fill-join", "fill-join"];
 /// The degrees that can be chosen.
-const DEGREES: [(u8, &str); 5] = [(3, "3"), (4, "4"), (5, "5"), (6, "6"), (7, "7")];
+const DEGREES: [(u8, &str); 8] =
+    [(3, "3"), (4, "4"), (5, "5"), (6, "6"), (7, "7"), (8, "8"), (9, "9"), (10, "10")];
+/// An angle between tangent planes, in degrees, that isophotes show.
+const VISIBLE: f64 = 0.5;
+/// What is said beside a larger one.
+const WHAT_HELPS: &str = " Its sides bend more often than polynomials of this degree do: a higher degree comes nearer, or shorter sides, with a corner picked where they bend.";
 /// Most edges along a side.
 const MOST_RESOLUTION: f64 = 64.0;
 
@@ -180,12 +185,13 @@ impl Page {
             Some(figures) => match &figures.stuck {
                 Some(why) => format!("It does not follow its curves at the moment: {why}."),
                 None => format!(
-                    "{} sides of degree {}, {} control points. Off its curves by at most {}, off its planes by at most {}°.",
+                    "{} sides of degree {}, {} control points. Off its curves by at most {}, off its planes by at most {}°.{}",
                     figures.sides,
                     figures.degree,
                     figures.control_points,
                     few(figures.curve_deviation),
-                    few(figures.plane_deviation)
+                    few(figures.plane_deviation),
+                    if figures.plane_deviation > VISIBLE { WHAT_HELPS } else { "" }
                 ),
             },
         };

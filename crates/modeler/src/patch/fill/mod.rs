@@ -5,6 +5,7 @@
 //! curves and its neighbours in every frame. Fills whose planes come from others are done after those.
 
 mod corners;
+mod degree;
 mod error;
 mod planes;
 mod side;
@@ -15,6 +16,7 @@ pub(crate) use corners::{corners, held, joined};
 pub use error::FillError;
 pub(crate) use side::{Drawn, Side, places, tangents};
 
+use self::planes::Given;
 use super::{NetLines, PatchShape};
 use crate::model::Model;
 use crate::relax::Relaxer;
@@ -22,17 +24,14 @@ use crate::shape::edit;
 use ductile_patch::s_patch::{Fill as Rule, Join, PatchKind, SPatch, Tessellated};
 use ductile_patch::{PlaneSample, Ribbon, RibbonLoop, curve_point, elevated, ribbons_along};
 use ductile_spec::{
-    CurveId, CurveStretch, FILL_RESOLUTION, Fill, FillFigures, FillInterior, FillJoin, FillStyle, SurfaceId,
+    CurveId, FILL_RESOLUTION, Fill, FillFigures, FillInterior, FillJoin, FillStyle, SurfaceId,
 };
 use glam::DVec3;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// More control points than this do not follow a hand.
 const MOST_POINTS: usize = 13_000;
-/// A degree that nobody chose leaves this many control points at the most, down to the least degree.
-const EASY_POINTS: f64 = 2_000.0;
-const DEGREES: [usize; 3] = [5, 4, 3];
 /// Sine of the least angle by which a loop turns at a corner, and of which it stays away from turning back: 5°.
 const FLAT: f64 = 0.087;
 
@@ -52,7 +51,7 @@ pub struct FillShape {
     /// What it was last made from, or should have been.
     drawn: Vec<Drawn>,
     style: FillStyle,
-    planes: Vec<PlaneSample>,
+    planes: Vec<Given>,
     /// Its sides, and its ribbons as they would be without planes.
     pub(crate) sides: Vec<Side>,
     base: Option<RibbonLoop>,
@@ -126,10 +125,10 @@ impl FillShape {
     }
 
     /// New curves: their fits, and the ribbons that they have by themselves.
-    fn redraw(&mut self, fill: &Fill, drawn: Vec<Drawn>) {
+    fn redraw(&mut self, fill: &Fill, degree: usize, drawn: Vec<Drawn>) {
         self.drawn = drawn;
         self.style = fill.style;
-        let fitted = fitted(fill, &self.drawn);
+        let fitted = fitted(fill, degree, &self.drawn);
         self.is_behind = fitted.is_err();
         self.failure = fitted.as_ref().err().copied();
         if let Ok((sides, base)) = fitted {
@@ -138,7 +137,7 @@ impl FillShape {
     }
 
     /// New planes, or new curves: the patch.
-    fn rebuild(&mut self, planes: Vec<PlaneSample>, known: impl Fn(&Wanted) -> Option<Arc<PatchKind>>) {
+    fn rebuild(&mut self, planes: Vec<Given>, known: impl Fn(&Wanted) -> Option<Arc<PatchKind>>) {
         self.planes = planes;
         let Some(base) = &self.base else { return };
         let built = built(base, &self.sides, self.style, &self.planes, known);
@@ -159,31 +158,8 @@ fn join(style: FillStyle) -> Join {
     }
 }
 
-/// The degree of a fill: what was chosen, or the highest that leaves it light.
-pub(crate) fn degree(fill: &Fill) -> usize {
-    let is_light = |degree: &usize| {
-        PatchKind::control_points(fill.sides.len(), *degree, join(fill.style)) <= EASY_POINTS
-    };
-    let chosen = fill.style.degree.map(usize::from);
-    chosen.unwrap_or_else(|| DEGREES.into_iter().find(is_light).unwrap_or(DEGREES[2]))
-}
-
-/// The degree of the Bézier curve along each stretch: the lowest among the fills that have it, so that all have the same curve.
-fn degrees(model: &Model) -> BTreeMap<CurveStretch, usize> {
-    let mut degrees = BTreeMap::new();
-    for fill in model.document.fills.values() {
-        let own = degree(fill);
-        for side in &fill.sides {
-            let Some(curve) = model.document.curves.get(&side.curve) else { continue };
-            let lowest = degrees.entry(side.stretch(curve).0).or_insert(own);
-            *lowest = own.min(*lowest);
-        }
-    }
-    degrees
-}
-
 /// Sides with their Bézier curves, and ribbons along them without regard to planes.
-fn fitted(fill: &Fill, drawn: &[Drawn]) -> Result<(Vec<Side>, RibbonLoop), FillError> {
+fn fitted(fill: &Fill, own: usize, drawn: &[Drawn]) -> Result<(Vec<Side>, RibbonLoop), FillError> {
     if !fill.ribbons.is_empty() {
         let ribbons = fill.ribbons.iter().map(|r| Ribbon { row0: r.row0.clone(), row1: r.row1.clone() });
         let ribbons: Vec<Ribbon> = ribbons.collect();
@@ -196,7 +172,6 @@ fn fitted(fill: &Fill, drawn: &[Drawn]) -> Result<(Vec<Side>, RibbonLoop), FillE
         return Ok((Vec::new(), ring));
     }
     let sides = drawn.iter().cloned().map(Side::new).collect::<Result<Vec<_>, _>>()?;
-    let own = degree(fill);
     let rows: Vec<Vec<DVec3>> = sides
         .iter()
         .map(|side| (side.fit.points.len() - 1..own).fold(side.row(), |row, _| elevated(&row)))
@@ -230,15 +205,15 @@ fn built(
     base: &RibbonLoop,
     sides: &[Side],
     style: FillStyle,
-    planes: &[PlaneSample],
+    planes: &[Given],
     known: impl Fn(&Wanted) -> Option<Arc<PatchKind>>,
 ) -> Result<Built, FillError> {
     let (mut ribbons, mut angle) = (base.clone(), 0.0);
     if style.join == FillJoin::Tangent && !planes.is_empty() {
         let rows: Vec<Vec<DVec3>> = base.ribbons().iter().map(|ribbon| ribbon.row0.clone()).collect();
-        let planed = ribbons_along(&rows, planes)?;
-        angle = planed.angles.iter().copied().fold(0.0, f64::max);
-        ribbons = planed.ribbons;
+        let samples: Vec<PlaneSample> = planes.iter().map(|given| given.sample).collect();
+        ribbons = ribbons_along(&rows, &samples)?.ribbons;
+        angle = planes.iter().map(|given| given.angle(&ribbons)).fold(0.0, f64::max);
     }
     let rule = match style.interior {
         FillInterior::Biharmonic => Rule::Biharmonic,
@@ -311,18 +286,19 @@ pub(crate) fn follow(model: &mut Model, relaxer: Option<&Relaxer>) {
         return;
     }
     let document = Arc::clone(&model.document);
-    let (degrees, corner_planes) = (degrees(model), side::planes(model, relaxer));
+    let (degrees, corner_planes) = (degree::of_stretches(&document), side::planes(model, relaxer));
     let mut is_new: BTreeSet<SurfaceId> = BTreeSet::new();
     for (id, fill) in &document.fills {
         let Some(shape) = shape(model, *id) else { continue };
+        let own = degree::of(&document, fill);
         let drawn = side::all_drawn(model, &corner_planes, fill, |stretch| {
-            degrees.get(stretch).copied().unwrap_or_else(|| degree(fill))
+            degrees.get(stretch).copied().unwrap_or(own)
         });
         match drawn {
             Ok(drawn) => {
                 let is_first = shape.base.is_none() && shape.failure.is_none();
                 if is_first || drawn != shape.drawn || fill.style != shape.style {
-                    change(model, *id, |shape| shape.redraw(fill, drawn));
+                    change(model, *id, |shape| shape.redraw(fill, own, drawn));
                     is_new.insert(*id);
                 }
             }

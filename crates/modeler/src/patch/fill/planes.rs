@@ -14,6 +14,7 @@ use ductile_patch::{PlaneSample, RibbonLoop, curve_derivative, plane_of_directio
 use ductile_spec::{CurveId, CurveStretch, Fill, FillJoin, PointId, SurfaceId};
 use glam::DVec3;
 use std::collections::BTreeMap;
+use std::f64::consts::FRAC_PI_2;
 
 /// Places along a side at which planes are asked for.
 const PLACES: usize = 32;
@@ -22,8 +23,26 @@ const FOLDED: f64 = 0.5;
 /// Sine of the angle up to which curves at a corner count as lying in one plane: 20°.
 pub(super) const COPLANAR: f64 = 0.342;
 
+/// A plane that a side is given.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Given {
+    /// What the ribbon can do about it: the plane turned until the Bézier curve lies in it.
+    pub(super) sample: PlaneSample,
+    /// The normal of the plane itself.
+    normal: DVec3,
+}
+
+impl Given {
+    /// The angle between the plane and that of a ribbon there, in radians from 0 to π/2: what the curve misses of its direction is in
+    /// it. π/2 where the ribbon has no plane.
+    pub(super) fn angle(&self, ribbons: &RibbonLoop) -> f64 {
+        let own = ribbons.ribbons().get(self.sample.side).and_then(|ribbon| ribbon.normal(self.sample.u));
+        own.map_or(FRAC_PI_2, |own| libm::atan2(own.cross(self.normal).length(), own.dot(self.normal).abs()))
+    }
+}
+
 /// The planes of all sides of a fill as things are now.
-pub(super) fn of(model: &Model, relaxer: Option<&Relaxer>, id: SurfaceId) -> Vec<PlaneSample> {
+pub(super) fn of(model: &Model, relaxer: Option<&Relaxer>, id: SurfaceId) -> Vec<Given> {
     let (Some(fill), Some(own)) = (model.document.fills.get(&id), shape(model, id)) else {
         return Vec::new();
     };
@@ -41,7 +60,8 @@ pub(super) fn of(model: &Model, relaxer: Option<&Relaxer>, id: SurfaceId) -> Vec
         let on_side = |(u, normal): (f64, DVec3)| {
             // What runs along the curve says nothing of the plane.
             let along = curve_derivative(&drawn.fit.points, u).normalize_or_zero();
-            PlaneSample { side: at, u: drawn.parameter(u), normal: normal - along * along.dot(normal) }
+            let within = normal - along * along.dot(normal);
+            Given { sample: PlaneSample { side: at, u: drawn.parameter(u), normal: within }, normal }
         };
         planes.extend(normals.into_iter().map(on_side));
     }
