@@ -5,8 +5,9 @@
 #![allow(clippy::print_stdout, reason = "the figures are worth seeing with --nocapture")]
 
 use acceptance::Bench;
-use ductile_mesh::{quality, summary};
-use ductile_spec::{Edit, Example, Request, to_fragment, to_text};
+use ductile_mesh::{Mesh, quality, summary};
+use ductile_spec::{Edit, Example, Foot, Request, SurfaceId, to_fragment, to_text};
+use glam::DVec3;
 use serde_json::Value;
 
 /// What an example is known by.
@@ -62,7 +63,7 @@ fn run(example: Example) -> Bench {
 
 #[test]
 fn every_built_example_is_what_its_script_gives() {
-    for example in Example::BUILT {
+    for example in Example::BUILT.into_iter().chain(Example::PATCHES) {
         let made = run(example).document();
         let text = to_text(&made);
         let link = to_fragment(&made).len();
@@ -122,5 +123,70 @@ fn every_built_example_comes_to_rest_at_its_energy() {
         );
         assert!((energy / known.energy - 1.0).abs() < 1e-3, "{:?}: energy {energy}", known.example);
         assert!(least > known.angle, "{:?}: an angle of {least}", known.example);
+    }
+}
+
+/// The exact surfaces of an example at rest, by number.
+fn exact(example: Example) -> (Bench, Vec<SurfaceId>) {
+    let mut bench = Bench::with(example);
+    bench.rest(600);
+    let model = bench.modeler.model();
+    assert!(model.surfaces.is_empty(), "{example:?}");
+    let surfaces = model.patches.keys().copied().collect();
+    (bench, surfaces)
+}
+
+#[test]
+fn patches_of_the_examples_meet_smoothly_and_follow_their_curves() {
+    for (example, patches, seams) in [(Example::SixSided, 1, 0), (Example::ConnectedPatches, 6, 10)] {
+        let (mut bench, surfaces) = exact(example);
+        assert_eq!(surfaces.len(), patches, "{example:?}");
+        let found = bench.accept(Request::Seams).seams.unwrap();
+        assert_eq!(found.seams.len(), seams, "{example:?}");
+        for seam in &found.seams {
+            println!("{example:?}: gap {:e}, {}°", seam.gap, seam.angle);
+            assert!(seam.gap < 1e-12 && seam.angle < 0.05, "{example:?}: {seam:?}");
+        }
+        for fill in &found.fills {
+            println!("{example:?}: {fill:?}");
+            assert!(fill.stuck.is_none() && fill.curve_deviation < 2e-3, "{example:?}: {fill:?}");
+        }
+        for id in surfaces {
+            let shape = &bench.modeler.model().patches[&id];
+            let mesh = Mesh::from_triangles(shape.positions().len(), shape.triangles()).unwrap();
+            let found = summary(&mesh);
+            assert_eq!((found.euler, found.boundaries), (1, 1), "{example:?}");
+        }
+    }
+}
+
+/// What is nearest to a foot goes along with it, nothing goes farther, and rims stay.
+#[test]
+fn displaced_examples_stand_at_the_ends_of_their_displacements() {
+    for (example, feet, euler) in [(Example::SixSided, 1, 1), (Example::LobedRing, 6, 0)] {
+        let (mut bench, surfaces) = exact(example);
+        let displaced = bench.document().displacements[&surfaces[0]].clone();
+        assert_eq!(displaced.items.len(), feet, "{example:?}");
+        let plain = bench.modeler.model().patches[&surfaces[0]].positions().to_vec();
+        bench.edit(Edit::Bake { surface: surfaces[0] });
+        let baked = bench.document().meshes[&surfaces[0]].clone();
+        // A foot that is no vertex becomes one, after the others.
+        let (shown, count) = (&baked.vertices, plain.len());
+        let mesh = Mesh::from_triangles(shown.len(), &baked.triangles).unwrap();
+        assert_eq!(summary(&mesh).euler, euler, "{example:?}");
+        assert!((count..=count + feet).contains(&shown.len()), "{example:?}: {} and {count}", shown.len());
+        let moved: Vec<DVec3> = shown.iter().zip(&plain).map(|(shown, plain)| *shown - *plain).collect();
+        for item in &displaced.items {
+            let Foot::At(at) = item.foot else { panic!("{example:?}: {item:?}") };
+            let near =
+                (0..plain.len()).min_by(|a, b| plain[*a].distance(at).total_cmp(&plain[*b].distance(at)));
+            let off = moved[near.unwrap()].distance(item.by) / item.by.length();
+            println!("{example:?}: {off:e} of the displacement is missing at the vertex beside the foot");
+            assert!(off < 0.02, "{example:?}: {off}");
+        }
+        let most = displaced.items.iter().map(|item| item.by.length()).fold(0.0, f64::max);
+        assert!(moved.iter().all(|by| by.length() < most + 1e-5), "{example:?}");
+        let rim = mesh.vertices().filter(|v| mesh.is_boundary_vertex(*v));
+        assert!(rim.map(|v| moved[v.index()].length()).all(|by| by < 1e-5), "{example:?}");
     }
 }

@@ -197,6 +197,7 @@ test("every example opens and rests", async () => {
     handle: [-2, 0], "klein-mug": [0, 0], "three-handles": [-4, 0],
     "moebius-strip": [0, 1], spout: [1, 1], "bored-ball": [0, 0],
     "torus-cage": [0, 0], trebol: [-4, 0], icosahedron: [2, 0],
+    "six-sided": [1, 1], "connected-patches": [1, 1], "lobed-ring": [0, 0],
   };
   await withPage({ viewport: wide }, async (page) => {
     let before = await atRest(page);

@@ -30,16 +30,17 @@ const scenes = [
   ["icosahedron", ["isophotes", "mean"]],
 ];
 
-/** Opens a document of tests/gallery, which the script of its name gave, or an example by the menu. */
-async function example(page, word, change = (document) => document) {
+/** Opens a document of tests/gallery, which the script of its name gave, or an example: by the menu, or changed. */
+async function example(page, word, change) {
   const { openings } = await atRest(page);
-  const file = new URL(`../gallery/${word}.ductile.json`, import.meta.url);
+  const folder = change ? "../../crates/modeler/src/example" : "../gallery";
+  const file = new URL(`${folder}/${word}.ductile.json`, import.meta.url);
   const text = await readFile(file, "utf8").catch(() => null);
   if (text === null) {
     await page.locator("#file-button").click();
     await page.locator(`#examples [data-subject="${word}"]`).click();
   } else {
-    const buffer = Buffer.from(JSON.stringify(change(JSON.parse(text))));
+    const buffer = Buffer.from(JSON.stringify(change ? change(JSON.parse(text)) : JSON.parse(text)));
     await page.locator("#file").setInputFiles({ name: `${word}.ductile.json`, mimeType: "", buffer });
   }
   await atRest(page, (state) => state.openings === openings + 1 && state.surfaces.length > 0);

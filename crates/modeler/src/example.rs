@@ -31,6 +31,9 @@ pub fn example(example: Example) -> Document {
         Example::TorusCage => caged(CageForm::Torus),
         Example::Trebol => caged(CageForm::Trebol),
         Example::Icosahedron => caged(CageForm::Icosahedron),
+        Example::SixSided => built(include_str!("example/six-sided.ductile.json")),
+        Example::ConnectedPatches => built(include_str!("example/connected-patches.ductile.json")),
+        Example::LobedRing => built(include_str!("example/lobed-ring.ductile.json")),
     };
     example.title().clone_into(&mut document.name);
     document

@@ -43,6 +43,12 @@ pub enum Example {
     Trebol,
     /// A surface over an icosahedron.
     Icosahedron,
+    /// A patch of six sides whose middle is lifted by a displacement.
+    SixSided,
+    /// Patches over half a dodecahedron: a network of curves, all loops of which are filled.
+    ConnectedPatches,
+    /// A torus over a cage, displaced at six places; its inner equator is pinned.
+    LobedRing,
 }
 
 impl Example {
@@ -66,9 +72,12 @@ impl Example {
     /// Surfaces over cages.
     pub const CAGES: [Self; 3] = [Self::TorusCage, Self::Trebol, Self::Icosahedron];
 
+    /// Fills and displaced surfaces, which a script of acts builds, too.
+    pub const PATCHES: [Self; 3] = [Self::SixSided, Self::ConnectedPatches, Self::LobedRing];
+
     /// All examples, in the order of the menu.
     pub fn all() -> impl Iterator<Item = Self> {
-        Self::PLAIN.into_iter().chain(Self::BUILT).chain(Self::CAGES)
+        Self::PLAIN.into_iter().chain(Self::BUILT).chain(Self::CAGES).chain(Self::PATCHES)
     }
 
     /// What the menu calls it.
@@ -93,6 +102,9 @@ impl Example {
             Self::TorusCage => "Torus on a cage",
             Self::Trebol => "Trebol on a cage",
             Self::Icosahedron => "Icosahedron",
+            Self::SixSided => "Patch of six sides",
+            Self::ConnectedPatches => "Six patches",
+            Self::LobedRing => "Lobed ring",
         }
     }
 
@@ -118,6 +130,9 @@ impl Example {
             Self::TorusCage => "torus-cage",
             Self::Trebol => "trebol",
             Self::Icosahedron => "icosahedron",
+            Self::SixSided => "six-sided",
+            Self::ConnectedPatches => "connected-patches",
+            Self::LobedRing => "lobed-ring",
         }
     }
 }
