@@ -30,7 +30,7 @@ const scenes = [
   ["icosahedron", ["isophotes", "mean"]],
 ];
 
-/** Opens a document of tests/gallery, which the script of its name gave, or an example: by the menu, or changed. */
+/** Opens a document of tests/gallery, which the script of its name gave, or an example: by the menu, or as a file, changed. */
 async function example(page, word, change) {
   const { openings } = await atRest(page);
   const folder = change ? "../../crates/modeler/src/example" : "../gallery";
@@ -98,7 +98,8 @@ test("the gallery shows what a displacement cures in a patch of six sides", asyn
     await bare(page);
     const before = await take(page, "six-sided-before", "shaded");
     await take(page, "six-sided-before", "contours");
-    await example(page, "six-sided");
+    // Not by the menu: panels are hidden now.
+    await example(page, "six-sided", (document) => document);
     await page.mouse.wheel(0, 240);
     const after = await take(page, "six-sided", "shaded");
     await take(page, "six-sided", "contours");
