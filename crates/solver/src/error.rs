@@ -4,6 +4,7 @@ use glam::DVec3;
 use thiserror::Error;
 
 use crate::factor::FactorError;
+use crate::quadrature::Sampling;
 use crate::rings::RingError;
 
 /// Why a solver refuses. Positions are as they were.
@@ -81,6 +82,8 @@ pub(crate) fn check_length(expected: usize, found: usize) -> Result<(), SolverEr
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Settings {
+    /// Where the bending of a surface with rims is sampled.
+    pub sampling: Sampling,
     /// Relative residual at which a step's conjugate gradients may stop early.
     pub step_tolerance: f64,
     /// The same where curvature variation is minimised: its residuals span a wider range.
@@ -102,6 +105,7 @@ pub struct Settings {
 impl Default for Settings {
     fn default() -> Self {
         Self {
+            sampling: Sampling::default(),
             step_tolerance: 3e-2,
             variation_tolerance: 3e-3,
             predictor_tolerance: 1e-3,

@@ -61,7 +61,7 @@ pub(crate) struct Fit<T> {
     pub(crate) jacobian: T,
     /// `(L11, √2 L12, L22)`.
     pub(crate) l: [T; 3],
-    /// One third of the parametric fan.
+    /// The node's share of the parametric fan, one third where it has no part of a rim.
     pub(crate) area: T,
 }
 
@@ -305,13 +305,13 @@ fn second_form<T: Real>(fit: &mut Fit<T>, squared: T) {
     }
 }
 
-/// Twice the area of the parametric fan: the sum of `r_j r_{j+1} sin(scaled angle)`.
+/// Twice the area of the parametric fan: the sum of `r_j r_{j+1} sin(scaled angle)`, each by the node's share of the triangle.
 #[inline(always)]
 fn fan<T: Real>(ring: &Ring<T>) -> T {
     let gaps = ring.gaps();
     let mut sum = T::splat(0.0);
-    for pair in ring.spokes[..=gaps].windows(2) {
-        sum += pair[0].u * pair[1].v - pair[0].v * pair[1].u;
+    for (pair, &share) in ring.spokes[..=gaps].windows(2).zip(&ring.shares) {
+        sum += share * (pair[0].u * pair[1].v - pair[0].v * pair[1].u);
     }
     sum * (ring.h * ring.h)
 }

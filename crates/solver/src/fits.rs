@@ -48,7 +48,7 @@ pub(crate) enum Wanted {
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Node {
     pub(crate) normal: DVec3,
-    /// One third of the parametric fan.
+    /// The node's share of the parametric fan, one third where it has no part of a rim.
     pub(crate) area: f64,
     /// Mean chord.
     pub(crate) h: f64,
@@ -268,6 +268,7 @@ impl Fits {
     fn fit_pair<const N: usize>(&mut self, rings: &Rings, batch: &Batch, sweep: &mut Sweep<'_>) -> bool {
         let ring = &mut sweep.pair;
         ring.load(rings, &self.positions, batch.nodes);
+        sweep.goals.share(rings, batch.nodes, ring);
         if !ring.unroll() {
             return false;
         }
@@ -320,6 +321,7 @@ impl Fits {
         let node = index as usize;
         let ring = &mut sweep.single;
         ring.load(rings, &self.positions, [index; 2]);
+        sweep.goals.share(rings, [index; 2], ring);
         let careful = fit::fit_carefully(ring);
         let fit = &careful.fit;
         let price = sweep.goals.price(node);

@@ -127,6 +127,7 @@ impl<T: Real> Backward<T> {
             let next = ring.next(j);
             let sin = ring.spokes[j].cos * ring.spokes[next].sin - ring.spokes[j].sin * ring.spokes[next].cos;
             let cos = ring.spokes[j].cos * ring.spokes[next].cos + ring.spokes[j].sin * ring.spokes[next].sin;
+            let sixth = sixth * ring.shares[j];
             self.r[j] += sixth * ring.spokes[next].r * sin;
             self.r[next] += sixth * ring.spokes[j].r * sin;
             self.gap[j] = sixth * ring.spokes[j].r * ring.spokes[next].r * cos;

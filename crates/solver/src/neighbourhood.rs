@@ -51,6 +51,10 @@ pub(crate) struct Ring<T> {
     pub(crate) is_boundary: bool,
     /// One for each neighbour; a closed ring has its first once more at the end.
     pub(crate) spokes: [Spoke<T>; ROOM],
+    /// Per neighbour the part of the triangle up to the next one that is the node's, in thirds.
+    pub(crate) shares: [T; ROOM],
+    /// Whether all of these are 1.
+    pub(crate) is_even: bool,
     /// Mean chord length; `u` and `v` are divided by it.
     pub(crate) h: T,
     /// Sum of the unscaled angles, at least the guard.
@@ -68,6 +72,8 @@ impl<T: Real> Default for Ring<T> {
             degree: 0,
             is_boundary: false,
             spokes: [Spoke::default(); ROOM],
+            shares: [T::splat(1.0); ROOM],
+            is_even: true,
             h: zero,
             total: zero,
             scale: zero,

@@ -19,6 +19,9 @@
 use crate::constraint::Planes;
 use crate::energy::fair::Network;
 use crate::energy::membrane::Film;
+use crate::lanes::Real;
+use crate::neighbourhood::Ring;
+use crate::quadrature::{Sampling, Shares};
 use crate::rings::Rings;
 
 /// Share of the thin plate in `fair`: one over the square of 30 radii (recipe, section 9).
@@ -132,6 +135,8 @@ impl Price {
 pub(crate) struct Goals {
     /// Per node; none where all of it is thin plate.
     prices: Option<Vec<Price>>,
+    /// Whose triangles are whose; nothing where every corner has one third.
+    shares: Option<Shares>,
     /// Where curvature variation counts: the edges, and the triangles between them.
     pub(crate) network: Option<Network>,
     pub(crate) skin: Option<Film>,
@@ -148,6 +153,7 @@ impl Default for Goals {
     fn default() -> Self {
         Self {
             prices: None,
+            shares: None,
             network: None,
             skin: None,
             film: None,
@@ -159,10 +165,17 @@ impl Default for Goals {
 }
 
 impl Goals {
-    /// The objectives name as many triangles as there are.
-    pub(crate) fn new(rings: &Rings, objectives: &Objectives, planes: Option<Planes>) -> Self {
+    /// The objectives name as many triangles as there are; `fixed` has an entry for each node.
+    pub(crate) fn new(
+        (rings, fixed): (&Rings, &[bool]),
+        objectives: &Objectives,
+        sampling: Sampling,
+        planes: Option<Planes>,
+    ) -> Self {
+        let has_plane = |node: usize| planes.as_ref().is_some_and(|planes| planes.has(node));
+        let shares = Shares::new(rings, fixed, sampling, has_plane);
         if *objectives == Objectives::default() {
-            return Self { planes, ..Self::default() };
+            return Self { shares, planes, ..Self::default() };
         }
         let triangles = rings.triangles();
         let mut counts = vec![[0_u32; 4]; rings.len()];
@@ -175,9 +188,9 @@ impl Goals {
         let is = |triangle: usize, objective: Objective| objectives.of(triangle) == objective;
         let fair = present[Objective::Fair as usize];
         let membrane = present[Objective::Membrane as usize];
-        let has_plane = |node: usize| planes.as_ref().is_some_and(|planes| planes.has(node));
         Self {
             prices: Some(counts.into_iter().map(price).collect()),
+            shares,
             network: fair.then(|| Network::new(rings, |t| is(t, Objective::Fair), has_plane)),
             skin: fair.then(|| Film::new(rings, |t| is(t, Objective::Fair))),
             film: membrane.then(|| Film::new(rings, |t| is(t, Objective::Membrane))),
@@ -191,6 +204,14 @@ impl Goals {
     #[inline(always)]
     pub(crate) fn price(&self, node: usize) -> Price {
         self.prices.as_ref().map_or(Price::PLATE, |prices| prices[node])
+    }
+
+    /// Tells a ring which parts of its triangles are its node's.
+    #[inline(always)]
+    pub(crate) fn share<T: Real>(&self, rings: &Rings, nodes: [u32; 2], ring: &mut Ring<T>) {
+        if let Some(shares) = &self.shares {
+            shares.load(rings, nodes, ring);
+        }
     }
 
     /// The place of a node's prescribed plane, if it has one.
@@ -250,8 +271,9 @@ mod tests {
         let left = |t: &[u32; 3]| t.iter().map(|&node| disc.positions[node as usize].x).sum::<f64>() < 0.0;
         let choice = |t| if left(t) { Objective::Neutral } else { Objective::ThinPlate };
         let goals = Goals::new(
-            &rings,
+            (&rings, &disc.fixed),
             &Objectives::by_triangle(disc.triangles.iter().map(choice).collect(), 1.0),
+            Sampling::Everywhere,
             None,
         );
         let centre = goals.price(0);

@@ -120,8 +120,10 @@ impl<T: Real> Ordinary<T> {
         self.ends[degree] = End::default();
         // What the gap before adds to a chord, besides the one after.
         let mut before = T::splat(0.0);
-        for (end, pair) in self.ends.iter_mut().zip(ring.spokes[..=gaps].windows(2)) {
+        let pairs = ring.spokes[..=gaps].windows(2).zip(&ring.shares);
+        for (end, (pair, &share)) in self.ends.iter_mut().zip(pairs) {
             let [near, far] = [&pair[0], &pair[1]];
+            let sixth = sixth * share;
             let sine = sixth * (near.u * far.v - near.v * far.u);
             end.gap = sixth * (near.u * far.u + near.v * far.v);
             end.stretch += before + sine;

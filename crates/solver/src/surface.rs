@@ -88,7 +88,8 @@ impl SurfaceSolver {
     pub fn new(rings: Rings, fixed: Vec<bool>, settings: Settings) -> Result<Self, SolverError> {
         check_length(rings.len(), fixed.len())?;
         let unknowns = unknowns(&rings, &fixed);
-        let goals = Goals::default();
+        let objectives = Objectives::default();
+        let goals = Goals::new((&rings, &fixed), &objectives, settings.sampling, None);
         Ok(Self {
             components: Components::new(&rings),
             assembly: Assembly::new(&rings, &unknowns),
@@ -106,7 +107,7 @@ impl SurfaceSolver {
             scratch: Scratch::default(),
             bays: None,
             sleep: None,
-            objectives: Objectives::default(),
+            objectives,
             goals,
             damping: 1.0,
             quiet_steps: 0,
@@ -142,9 +143,7 @@ impl SurfaceSolver {
             self.unknowns = unknowns;
             self.fixed = fixed;
             self.bays = None;
-            self.damping = 1.0;
-            self.quiet_steps = 0;
-            self.release_planes();
+            self.heed_fixed();
         }
         Ok(())
     }

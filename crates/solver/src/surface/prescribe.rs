@@ -7,6 +7,7 @@ use crate::constraint::Planes;
 use crate::error::SolverError;
 use crate::fits::{Fits, Wanted};
 use crate::objective::Goals;
+use crate::quadrature::Sampling;
 
 impl SurfaceSolver {
     /// Prescribes the tangent plane at fixed nodes, by its normal in the sense of [`SurfaceSolver::normals`]; any length but zero
@@ -58,7 +59,7 @@ impl SurfaceSolver {
 
     /// Sets up for what is minimised now, with these planes.
     pub(super) fn set_goals(&mut self, planes: Option<Planes>) {
-        self.goals = Goals::new(&self.rings, &self.objectives, planes);
+        self.goals = Goals::new((&self.rings, &self.fixed), &self.objectives, self.settings.sampling, planes);
         self.fits = Fits::new(&self.rings, &self.goals);
         self.trial = Fits::new(&self.rings, &self.goals);
         self.damping = 1.0;
@@ -91,11 +92,13 @@ impl SurfaceSolver {
         has_turned
     }
 
-    /// Drops the planes if a node of theirs is fixed no more.
-    pub(super) fn release_planes(&mut self) {
-        let nodes = self.goals.planes.iter().flat_map(Planes::list);
-        if nodes.into_iter().any(|plane| !self.fixed[plane.node as usize]) {
-            self.set_goals(None);
+    /// Other nodes are fixed: drops the planes if a node of theirs is not, and says anew whose triangles are whose.
+    pub(super) fn heed_fixed(&mut self) {
+        let planes = self.goals.planes.iter().flat_map(Planes::list);
+        let is_lost = planes.into_iter().any(|plane| !self.fixed[plane.node as usize]);
+        if is_lost || self.settings.sampling == Sampling::Inside {
+            let planes = self.goals.planes.take().filter(|_| !is_lost);
+            self.set_goals(planes);
         }
     }
 }
