@@ -28,16 +28,16 @@ const fn known(example: Example, kind: (i64, usize, bool), energy: f64, angle: f
 }
 
 const KNOWN: [Known; Example::BUILT.len()] = [
-    known(Example::Torus, (0, 0, true), 86.998, 30.0),
-    known(Example::PartyHat, (-2, 4, true), 72.100, 30.0),
-    known(Example::CappedCylinder, (2, 0, true), 25.047, 30.0),
-    known(Example::GluedCylinders, (0, 2, true), 24.755, 30.0),
-    known(Example::Handle, (-2, 0, true), 189.688, 25.0),
+    known(Example::Torus, (0, 0, true), 87.131, 30.0),
+    known(Example::PartyHat, (-2, 4, true), 71.746, 30.0),
+    known(Example::CappedCylinder, (2, 0, true), 25.046, 30.0),
+    known(Example::GluedCylinders, (0, 2, true), 24.843, 30.0),
+    known(Example::Handle, (-2, 0, true), 190.442, 25.0),
     known(Example::KleinMug, (0, 0, false), 144.878, 25.0),
     known(Example::ThreeHandles, (-4, 0, true), 212.963, 25.0),
-    known(Example::MoebiusStrip, (0, 1, false), 4.089, 30.0),
-    known(Example::Spout, (1, 1, true), 48.149, 27.0),
-    known(Example::BoredBall, (0, 0, true), 1040.232, 27.0),
+    known(Example::MoebiusStrip, (0, 1, false), 4.386, 30.0),
+    known(Example::Spout, (1, 1, true), 48.113, 27.0),
+    known(Example::BoredBall, (0, 0, true), 1041.180, 27.0),
 ];
 
 fn path(folder: &str, example: Example, ending: &str) -> String {

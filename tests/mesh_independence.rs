@@ -18,9 +18,6 @@ use acceptance::solved::{Solved, opened, solve, solved};
 use ductile_spec::{Document, Edit, Example};
 use glam::DVec3;
 
-/// What may be off at 10,000 nodes, as a part of the model's width.
-const MOST: f64 = 1e-3;
-
 /// Moves a control point, another for each seed, outwards by so much, lets the mesh follow, and moves it home. The document is as
 /// before; the triangulation is not.
 fn scramble(bench: &mut Bench, seed: usize, by: f64) {
@@ -90,43 +87,43 @@ impl Figures {
 /// How far control points are moved, as a part of the width: so far that edges are split.
 const REACH: f64 = 0.15;
 
-/// Holds a document to the promise, and to an order.
-fn is_independent(name: &str, document: &Document, [spacing, reach]: [f64; 2], order: f64) {
+/// Holds a document to an order, and at 10,000 nodes to what may be off, as a part of the model's width. (Promised is 1e-3.)
+fn is_independent(name: &str, document: &Document, [spacing, reach]: [f64; 2], [order, most]: [f64; 2]) {
     let figures = Figures::of(name, document, spacing, reach);
     let [.., (nodes, finest)] = figures.meshes;
     assert!(nodes < 10_500, "{name}: {nodes} are more than about 10,000");
     for found in figures.scrambled.iter().chain([&finest]) {
-        assert!(found.worst < MOST, "{name}: {found:?}");
+        assert!(found.worst < most, "{name}: {found:?}");
     }
     assert!(figures.order(|d| d.rms) > order, "{name}: {:?}", figures.meshes);
 }
 
 #[test]
 fn a_raised_disc_is_the_same_on_any_mesh() {
-    is_independent("disc", &ductile_modeler::example(Example::RaisedDisc), [0.0226, REACH], 1.8);
+    is_independent("disc", &ductile_modeler::example(Example::RaisedDisc), [0.0226, REACH], [1.8, 2e-4]);
 }
 
 #[test]
 fn a_cylinder_is_the_same_on_any_mesh() {
-    is_independent("cylinder", &ductile_modeler::example(Example::Cylinder), [0.0355, REACH], 1.8);
+    is_independent("cylinder", &ductile_modeler::example(Example::Cylinder), [0.0355, REACH], [1.8, 1e-4]);
 }
 
 #[test]
 fn a_closed_surface_on_six_points_is_the_same_on_any_mesh() {
-    is_independent("ball", &ductile_modeler::example(Example::Ball), [0.0385, REACH], 1.8);
+    is_independent("ball", &ductile_modeler::example(Example::Ball), [0.0385, REACH], [1.8, 1.5e-4]);
 }
 
 #[test]
 fn a_torus_of_three_curves_is_the_same_on_any_mesh() {
     // A closed curve through four points that is led further than its radius comes back to rest in another valley.
-    is_independent("torus", &torus(), [0.1024, 0.06], 1.8);
+    is_independent("torus", &torus(), [0.1024, 0.06], [1.8, 1e-3]);
 }
 
-/// Nodes on a rim are fitted without the twist `uv`, since their half rings cannot hold it. Where the shape twists along its rim,
-/// the energy misses a strip of half an edge: the order is one, and the deviation small all the same.
+/// It twists along its rim, and the half rings of nodes there cannot hold the twist: sampled at every node alike, the energy
+/// would miss a strip half an edge wide, and the order be one.
 #[test]
 fn a_saddle_with_a_closed_curve_inside_is_the_same_on_any_mesh() {
-    is_independent("ringed saddle", &ringed_saddle(), [0.0224, REACH], 0.9);
+    is_independent("ringed saddle", &ringed_saddle(), [0.0224, REACH], [1.8, 2e-4]);
 }
 
 /// At the end of an open curve inside a surface the bending grows without bound, as `r^(-1/2)`. On meshes of even density nothing
@@ -134,5 +131,5 @@ fn a_saddle_with_a_closed_curve_inside_is_the_same_on_any_mesh() {
 /// for a logarithm (`modeler/density/ends`). The rim twists here as well.
 #[test]
 fn a_saddle_with_an_open_curve_inside_is_the_same_on_any_mesh() {
-    is_independent("ridged saddle", &ridged_saddle(), [0.0229, REACH], 1.5);
+    is_independent("ridged saddle", &ridged_saddle(), [0.0229, REACH], [1.8, 6e-4]);
 }

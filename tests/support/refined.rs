@@ -3,7 +3,7 @@
 //! What the modeler's mesh improvement does, and how many nodes a model may have, does not matter here.
 
 use crate::solved::{Line, Solved};
-use ductile_solver::{Budget, CurveSettings, CurveSolver, Rings, Settings, SurfaceSolver};
+use ductile_solver::{Budget, CurveSettings, CurveSolver, Rings, Sampling, Settings, SurfaceSolver};
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -106,7 +106,9 @@ fn halved(coarse: &Solved, is_split: impl Fn(usize, usize) -> bool) -> Solved {
     let faces: Vec<[u32; 3]> =
         triangles.iter().map(|t| t.map(|v| u32::try_from(v).expect("fewer nodes"))).collect();
     let rings = Rings::from_triangles(positions.len(), &faces).expect("a surface");
-    let mut solver = SurfaceSolver::new(rings, fixed, Settings::default()).expect("it can be solved");
+    let mut settings = Settings::default();
+    settings.sampling = Sampling::Inside;
+    let mut solver = SurfaceSolver::new(rings, fixed, settings).expect("it can be solved");
     // Many iterations a step, for a fit of so many nodes is dear.
     let budget = Budget { iterations: 30 };
     let is_at_rest = (0..60).any(|_| solver.step(&mut positions, budget).expect("finite positions").at_rest);

@@ -8,7 +8,8 @@ use crate::region::{self, Choice, solver_objective};
 use crate::shape::{CurveShape, GROWN, SurfaceShape};
 use ductile_mesh::VertexId;
 use ductile_solver::{
-    Aim, CurveSettings, CurveSolver, EdgePlaces, Predicted, Rings, Settings, SolverError, SurfaceSolver,
+    Aim, CurveSettings, CurveSolver, EdgePlaces, Predicted, Rings, Sampling, Settings, SolverError,
+    SurfaceSolver,
 };
 use ductile_spec::{CurveId, Document, Objective, PointId, Region, SurfaceId};
 use glam::DVec3;
@@ -92,7 +93,9 @@ impl BoundSurface {
         for v in shape.controlled() {
             fixed[compact[v.index()] as usize] = true;
         }
-        let solver = SurfaceSolver::new(rings, fixed, Settings::default()).map_err(fail)?;
+        let mut settings = Settings::default();
+        settings.sampling = Sampling::Inside;
+        let solver = SurfaceSolver::new(rings, fixed, settings).map_err(fail)?;
         let positions: Vec<DVec3> = vertices.iter().map(|v| shape.positions[v.index()]).collect();
         let (revision, choice) = (shape.revision, Choice::default());
         Ok(Self { revision, solver, positions, vertices, compact, choice, is_beginning: false })
