@@ -6,7 +6,7 @@
 use ductile_mesh::Mesh;
 use ductile_mesh::remesh::{Ledger, Limits, Sizing, improve_changed, midpoint};
 use ductile_solver::workload::{self, Workload};
-use ductile_solver::{Budget, Rings, Settings, SurfaceSolver};
+use ductile_solver::{Budget, Rings, Sampling, Settings, SurfaceSolver};
 use glam::DVec3;
 
 use crate::torus;
@@ -61,7 +61,9 @@ fn rested(rings: usize, raise: f64) -> (SurfaceSolver, Vec<DVec3>) {
     (solver, positions)
 }
 
-fn with(shape: &Workload, settings: Settings) -> SurfaceSolver {
+/// As the modeler makes it: bending is sampled inside held rims.
+fn with(shape: &Workload, mut settings: Settings) -> SurfaceSolver {
+    settings.sampling = Sampling::Inside;
     let rings = Rings::from_triangles(shape.positions.len(), &shape.triangles).expect("a surface");
     SurfaceSolver::new(rings, shape.fixed.clone(), settings).expect("the shape can be solved")
 }
