@@ -2,7 +2,10 @@
 //!
 //! Normals are those of the solver's fits, as fair surfaces have them, so that isophotes and curvature are as smooth as the mesh
 //! allows. A mesh from elsewhere may have vertices that no fit can have: a fan of too many triangles, a spike, a fold. There the
-//! normals of the triangles are averaged by their areas.
+//! normals of the triangles are averaged by their areas. At the rim, where others go on from a mesh and the solver's fits are of the first
+//! order, they are those of cubics ([`rim_fit`]).
+
+mod rim_fit;
 
 use super::rim;
 use crate::error::ModelError;
@@ -37,9 +40,10 @@ impl MeshShape {
         let mut built = Mesh::from_triangles(mesh.vertices.len(), &mesh.triangles).map_err(refuse)?;
         let is_two_sided = propagate_orientation(&mut built);
         let triangles = built.to_triangles();
+        let normals = normals(&mesh.vertices, &triangles, is_two_sided);
         Ok(Self {
             positions: mesh.vertices.clone(),
-            normals: normals(&mesh.vertices, &triangles, is_two_sided),
+            normals: rim_fit::with_rim(&built, &mesh.vertices, normals),
             rim: rim::edges(&triangles),
             triangles,
             summary: crate::frame::summarise(&built),

@@ -96,7 +96,7 @@ fn a_given_mesh_is_shown_with_fitted_normals_turned_and_deleted() {
     for (at, normal) in positions.iter().zip(normals) {
         let outward = DVec3::new(at.x, at.y, 0.0);
         let is_at_rim = at.z.abs() > 1.9;
-        assert!(normal.dot(outward) > if is_at_rim { 0.99 } else { 1.0 - 1e-6 }, "{at}: {normal}");
+        assert!(normal.dot(outward) > if is_at_rim { 1.0 - 2e-4 } else { 1.0 - 1e-6 }, "{at}: {normal}");
     }
     let before = normals.to_vec();
     edit(&mut modeler, Edit::Reverse { surface: ONE });
@@ -316,11 +316,25 @@ fn what_took_its_planes_from_a_surface_takes_them_from_the_baked_one() {
         libm::acos(cosines.fold(1.0, f64::min)).to_degrees()
     };
     assert!(kink(&modeler) < 1.0, "{}", kink(&modeler));
+    let follower = |modeler: &Modeler| modeler.model().patches[&SurfaceId(2)].positions().to_vec();
+    let exact = modeler.model().patches[&ONE].clone();
+    let before = follower(&modeler);
     edit(&mut modeler, Edit::Bake { surface: ONE });
     assert!(takes(&modeler), "the curve runs along the rim of the mesh");
     rest(&mut modeler);
+    let moved = before.iter().zip(&follower(&modeler)).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
+    // Against the surface as it was before it became triangles.
+    let off = {
+        let [one, two] = [&exact, &modeler.model().patches[&SurfaceId(2)]].map(|patch| PatchRim::new(patch));
+        let nodes = modeler.model().curves[&CurveId(1)].nodes.iter();
+        let cosines = nodes.filter_map(|at| Some(one.normal(*at)?.dot(two.normal(*at)?).abs()));
+        libm::acos(cosines.fold(1.0, f64::min)).to_degrees()
+    };
+    // 0.03 and 0.54° with the one-sided fits of the solver.
+    println!("a follower of a baked surface moves by {moved}, and is {off} degrees off what was baked");
+    assert!(moved < 0.012 && off < 0.1, "{moved} {off}");
     println!("kink at a baked surface: {} degrees", kink(&modeler));
-    assert!(kink(&modeler) < 3.0, "{}", kink(&modeler));
+    assert!(kink(&modeler) < 0.1, "{}", kink(&modeler));
     // When the curve leaves the rim, there are no planes any more.
     let point = ductile_spec::PointId(1);
     edit(&mut modeler, Edit::Move { point, to: DVec3::new(1.5, 1.5, 0.9) });
