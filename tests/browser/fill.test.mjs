@@ -3,9 +3,9 @@
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { test } from "node:test";
-import { atRest, documentOf, drawn, pointAway, withDocument } from "./support/model.mjs";
+import { atRest, documentOf, drawn, point, pointAway, withDocument } from "./support/model.mjs";
 import { inspect, until, untilInspect } from "./support/page.mjs";
-import { pentagon, twoLoops } from "./support/loops.mjs";
+import { hexagon, pentagon, twoLoops } from "./support/loops.mjs";
 
 const textOf = (page, id) => page.evaluate((id) => document.getElementById(id).textContent, id);
 
@@ -63,6 +63,45 @@ test("a loop is shown under the pointer and filled by a click; how it is filled 
       await atRest(page, (state) => state.document !== document);
     }
     assert.equal((await inspect(page)).document, opened.document, "all of it is taken back");
+  });
+});
+
+test("corners are picked on a closed curve; a refusal keeps them, Escape and Backspace let go", async () => {
+  await withDocument(hexagon(), async (page, opened) => {
+    const place = (id) => point(opened, id).screen;
+    const hint = (text) => until(page, (text) => document.getElementById("hint").textContent.includes(text), text, { timeout: 5000 });
+    await page.keyboard.press("f");
+    await untilInspect(page, ({ tool }) => tool === "fill");
+    await page.mouse.move(...place(2));
+    await untilInspect(page, ({ hover }) => hover === "point 2");
+    await hint("or points as corners");
+    for (const id of [1, 2, 3]) await page.mouse.click(...place(id));
+    const three = await untilInspect(page, ({ marked, underWay }) => marked.points === 3 && underWay);
+    assert.equal(three.document, opened.document, "picking changes nothing");
+    await hint("Enter fills between these corners");
+    // One is let go by a click, one by Backspace, all by Escape.
+    await page.mouse.click(...place(2));
+    await untilInspect(page, ({ marked }) => marked.points === 2);
+    await hint("three or more");
+    await page.keyboard.press("Enter");
+    await untilInspect(page, ({ toast }) => toast?.includes("at least three corners"));
+    await page.keyboard.press("Backspace");
+    await untilInspect(page, ({ marked }) => marked.points === 1);
+    await page.keyboard.press("Escape");
+    await untilInspect(page, ({ tool, marked }) => tool === "fill" && marked.points === 0);
+
+    // The curve does not turn at its points: tangent planes cannot be met there, positions can.
+    for (const id of [1, 3, 4, 6]) await page.mouse.click(...place(id));
+    await page.keyboard.press("Enter");
+    const refused = await untilInspect(page, ({ toast }) => toast?.includes("the loop turns by"));
+    assert.equal(refused.marked.points, 4, "they are still there");
+    await page.locator("#new-fill-join").selectOption({ label: "Positions" });
+    await page.mouse.click(...middle(opened, 1));
+    const filled = await atRest(page, ({ act }) => act === "Fill");
+    assert.deepEqual(JSON.parse(filled.document).fills[1].sides.map(({ from }) => from).sort(), [1, 3, 4, 6]);
+    await untilInspect(page, ({ marked, tool }) => marked.points === 0 && tool === "fill");
+    await page.locator("#undo").click();
+    await atRest(page, ({ document }) => document === opened.document);
   });
 });
 

@@ -69,3 +69,49 @@ test("the rim of a cage leads a control curve, and a sheet over it follows", asy
     assert.equal((await inspect(page)).curves.length, 0);
   });
 });
+
+test("a part of a rim becomes a curve between two vertices that are clicked", async () => {
+  await withPage({ viewport: wide }, async (page) => {
+    await atRest(page);
+    await choose(page, "file", "new");
+    await atRest(page, ({ points }) => points.length === 0);
+    await page.keyboard.press("q");
+    await page.locator("#cage-form").selectOption({ label: "Grid" });
+    await page.mouse.click(400, 290);
+    const grid = await atRest(page, ({ act }) => act === "Cage");
+    // A row of five vertices at an edge of the grid, in order: those with the least x.
+    const least = Math.min(...grid.points.map(({ at }) => at[0]));
+    const row = grid.points.filter(({ at }) => at[0] < least + 1e-4).sort((a, b) => a.at[1] - b.at[1]);
+    assert.equal(row.length, 5);
+    await page.mouse.click(...middle([row[1].screen, row[2].screen]));
+    await untilInspect(page, ({ selection }) => /^edge \d+-\d+ of surface 1$/.test(selection ?? ""));
+    await page.locator("#rim-between").click();
+    await untilInspect(page, ({ tool, marked }) => tool === "divide" && marked.parts >= 1);
+
+    // A vertex inside is no choice; one of the rim is, and from there on a line shows what would become a curve.
+    const inside = grid.points.find(({ at }) => Math.hypot(at[0] - row[2].at[0], at[1] - row[2].at[1]) > 0.1 && Math.abs(at[1] - row[2].at[1]) < 1e-4);
+    await page.mouse.move(...inside.screen);
+    await untilInspect(page, ({ hover }) => hover === null);
+    await page.mouse.move(...row[0].screen);
+    await untilInspect(page, ({ hover }) => hover === `point ${row[0].id}`);
+    await page.mouse.click(...row[0].screen);
+    await untilInspect(page, ({ underWay }) => underWay);
+    await page.mouse.move(...row[3].screen);
+    await untilInspect(page, ({ hover, marked }) => hover === `point ${row[3].id}` && marked.lines === 1);
+    // The edge that was chosen has to lie between.
+    await page.mouse.click(...row[1].screen);
+    const refused = await untilInspect(page, ({ toast }) => /does not lie between/.test(toast ?? ""));
+    assert.equal(refused.document, grid.document);
+    await page.keyboard.press("Escape");
+    await untilInspect(page, ({ tool, underWay }) => tool === "divide" && !underWay);
+    for (const { screen } of [row[0], row[3]]) await page.mouse.click(...screen);
+    const ruled = await atRest(page, ({ act }) => act === "Rim curve");
+    const { through, closed, rim } = JSON.parse(ruled.document).curves[1];
+    const wanted = row.slice(0, 4).map(({ id }) => id);
+    assert.ok([wanted, [...wanted].reverse()].some((way) => way.join() === through.join()), `${through}`);
+    assert.ok(!closed && rim === 1);
+    await untilInspect(page, ({ tool }) => tool === "shape");
+    await page.keyboard.press("Control+z");
+    await atRest(page, ({ document }) => document === grid.document);
+  });
+});

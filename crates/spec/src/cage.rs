@@ -173,6 +173,67 @@ impl Cage {
         rim
     }
 
+    /// An edge at which it ends, by its ends in either order: in the sense in which it has the cage on its left.
+    #[must_use]
+    pub fn rim_edge(&self, [a, b]: [PointId; 2]) -> Option<[PointId; 2]> {
+        let rim = self.rim();
+        let is_edge = |[from, to]: &[PointId; 2]| rim.get(from).is_some_and(|edge| edge.to == *to);
+        [[a, b], [b, a]].into_iter().find(is_edge)
+    }
+
+    /// The vertices along the stretch of its rim that has the edge which begins at one, and whether it closes: all round, or from
+    /// where the rim turns to where it turns next.
+    #[must_use]
+    pub fn rim_stretch(&self, from: PointId) -> (Vec<PointId>, bool) {
+        let rim = self.rim();
+        let before: BTreeMap<PointId, PointId> = rim.iter().map(|(from, edge)| (edge.to, *from)).collect();
+        let turns = |point: PointId| rim.get(&point).is_none_or(|edge| edge.turns);
+        let mut first = from;
+        for _ in 0..rim.len() {
+            match before.get(&first) {
+                Some(point) if *point != from && !turns(first) => first = *point,
+                _ => break,
+            }
+        }
+        let closes = !turns(first);
+        if closes {
+            first = from;
+        }
+        let (mut through, mut at) = (vec![first], first);
+        while let Some(edge) = rim.get(&at) {
+            at = edge.to;
+            if closes && at == first {
+                break;
+            }
+            through.push(at);
+            if turns(at) || through.len() > rim.len() {
+                break;
+            }
+        }
+        (through, closes)
+    }
+
+    /// What of the stretch of its rim with an edge, as [`Self::rim_edge`] gives it, lies between two vertices and has that edge.
+    #[must_use]
+    pub fn rim_between(&self, edge: [PointId; 2], between: [PointId; 2]) -> Option<Vec<PointId>> {
+        let (all, closed) = self.rim_stretch(edge[0]);
+        let count = all.len();
+        let place = |point: PointId| all.iter().position(|other| *other == point);
+        let [a, b] = [place(between[0])?, place(between[1])?];
+        let run = |first: usize, last: usize| -> Option<Vec<PointId>> {
+            let steps = if last > first {
+                last - first
+            } else if closed && first != last {
+                last + count - first
+            } else {
+                return None;
+            };
+            let run: Vec<PointId> = (0..=steps).map(|step| all[(first + step) % count]).collect();
+            run.windows(2).any(|pair| pair == edge).then_some(run)
+        };
+        run(a, b).or_else(|| run(b, a))
+    }
+
     /// How its faces become quads.
     #[must_use]
     pub fn split(&self) -> CageSplit {

@@ -31,6 +31,7 @@ mod tests;
 pub use around::Around;
 pub use divide::face_between;
 pub use drag::{Arrow, Axis, Drag, grid_step, nudge_direction, work_plane};
+pub use fill::curve_of;
 pub use ghost::ghost_line;
 pub use handle::{Arm, handles_at};
 pub use kind::ToolKind;
@@ -130,8 +131,12 @@ pub struct Toolbox {
     kind: ToolKind,
     corners: Vec<Corner>,
     first: Option<Pick>,
-    /// Where a stretch, or the split of a face, begins whose other end is awaited.
+    /// Where a stretch, the split of a face, or a part of a rim begins whose other end is awaited.
     end: Option<PointId>,
+    /// The edge of the rim of a cage of which a part is to become a curve.
+    rim: Option<(SurfaceId, [PointId; 2])>,
+    /// The corners that were picked for a fill.
+    picked: Vec<PointId>,
     options: Options,
 }
 
@@ -199,7 +204,7 @@ impl Toolbox {
             ToolKind::Displace => "Drag a surface, or a curve in it. Wheel: how far around.",
             ToolKind::Sheet => "Click a closed curve to skin it.",
             ToolKind::Ribbon => "Click a rim, a curve or a point. Drag green handles.",
-            ToolKind::Fill => "Click a curve to fill the loop through it. Enter: all.",
+            ToolKind::Fill => self.fill_hint(),
             ToolKind::Burnout => "Click a region to burn it out. Its curves stay.",
             ToolKind::Crease => "Click a curve or region to crease, a crease to smooth.",
             ToolKind::Split => "Click a curve or region to cut the surface there.",
@@ -226,7 +231,7 @@ impl Toolbox {
                 Err(why) => vec![Act::Say(why)],
             },
             ToolKind::Ribbon => ribbon::click(aim, around),
-            ToolKind::Fill => fill::click(aim, &self.options),
+            ToolKind::Fill => self.click_fill(aim, around.document),
             ToolKind::Burnout => surgery::burn_out(aim),
             ToolKind::Crease => surgery::crease(aim, around),
             ToolKind::Split => surgery::split(aim, around),
@@ -252,7 +257,12 @@ impl Toolbox {
     pub fn key(&mut self, key: ToolKey, around: Surroundings<'_>) -> Vec<Act> {
         match key {
             ToolKey::Done if !self.corners.is_empty() => self.end_path(false, around),
-            ToolKey::Back if self.corners.pop().is_some() => Vec::new(),
+            ToolKey::Done if !self.picked.is_empty() => self.fill_between(around.document),
+            ToolKey::Back if self.corners.pop().is_some() || self.picked.pop().is_some() => Vec::new(),
+            ToolKey::Escape if !self.picked.is_empty() => {
+                self.picked.clear();
+                Vec::new()
+            }
             ToolKey::Escape if !self.corners.is_empty() => {
                 self.corners.clear();
                 Vec::new()
@@ -265,7 +275,8 @@ impl Toolbox {
                 Vec::new()
             }
             ToolKey::Escape if self.kind == ToolKind::Divide => {
-                self.choose(ToolKind::Cage);
+                let is_rim = self.rim.is_some();
+                self.choose(if is_rim { ToolKind::Shape } else { ToolKind::Cage });
                 Vec::new()
             }
             ToolKey::Escape => vec![Act::Leave],
@@ -277,7 +288,7 @@ impl Toolbox {
     /// Whether Backspace belongs to the tool rather than to the selection.
     #[must_use]
     pub fn is_under_way(&self) -> bool {
-        !self.corners.is_empty() || self.first.is_some() || self.end.is_some()
+        !self.corners.is_empty() || self.first.is_some() || self.end.is_some() || !self.picked.is_empty()
     }
 
     /// Forgets what the model no longer has.
@@ -291,7 +302,12 @@ impl Toolbox {
         }
         let has = |id: SurfaceId| structure.surfaces.iter().any(|surface| surface.id == id);
         self.corners.retain(|corner| corner.surface.is_none_or(has));
-        self.end = self.end.filter(|end| entry(structure, *end).is_some());
+        let is_there = |id: &PointId| entry(structure, *id).is_some();
+        self.end = self.end.filter(is_there);
+        self.picked.retain(is_there);
+        if self.rim.is_some_and(|(surface, ends)| !has(surface) || !ends.iter().all(is_there)) {
+            self.choose(ToolKind::Shape);
+        }
         self.first = self.first.filter(|first| match *first {
             Pick::Curve(id) => span(structure, id).is_some(),
             Pick::Stretch(id, ends) => {

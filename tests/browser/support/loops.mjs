@@ -19,3 +19,13 @@ export function twoLoops(name = "Two loops") {
   const curves = { 1: open(1, 2), 2: open(2, 3), 3: open(3, 4), 4: open(4, 5), 5: open(5, 6), 6: open(6, 1), 7: open(2, 7, 5) };
   return { ductile: 1, name, points, curves };
 }
+
+/** A closed curve, round but for its heights, through the points 1 to 6. */
+export function hexagon(name = "Hexagon") {
+  const points = {};
+  for (let k = 0; k < 6; k += 1) {
+    const at = [Math.cos((Math.PI * k) / 3), Math.sin((Math.PI * k) / 3), k % 2 === 0 ? 0.2 : -0.2];
+    points[k + 1] = at.map((x) => Number(x.toFixed(3)));
+  }
+  return { ductile: 1, name, points, curves: { 1: { through: [1, 2, 3, 4, 5, 6], closed: true } } };
+}

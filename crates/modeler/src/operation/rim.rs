@@ -5,8 +5,7 @@ use crate::error::{ModelError, RimError};
 use crate::model::Model;
 use crate::operation::insert_vertex;
 use crate::patch::caged;
-use ductile_spec::{Cage, Curve, CurveId, Document, PointId, RimEdge, SurfaceId};
-use std::collections::BTreeMap;
+use ductile_spec::{Cage, Curve, CurveId, Document, PointId, SurfaceId};
 
 /// Makes a curve of the rim that has an edge: all round, or from where the rim turns to where it turns next; or of what of that lies
 /// between two vertices. It has the cage on its left.
@@ -16,15 +15,12 @@ pub(super) fn rim(
     ends: [PointId; 2],
     between: Option<[PointId; 2]>,
 ) -> Result<(), ModelError> {
-    let rim = caged(&model.document, surface, "A rim curve")?.rim();
-    let is_edge = |[from, to]: &[PointId; 2]| rim.get(from).is_some_and(|edge| edge.to == *to);
-    let start = [ends, [ends[1], ends[0]]].into_iter().find(is_edge);
-    let [from, to] = start.ok_or(RimError::NoEnd { surface, ends })?;
+    let cage = caged(&model.document, surface, "A rim curve")?;
+    let edge = cage.rim_edge(ends).ok_or(RimError::NoEnd { surface, ends })?;
     let (through, closed) = match between {
-        None => whole(&rim, from),
+        None => cage.rim_stretch(edge[0]),
         Some(between) => {
-            let (all, closed) = whole(&rim, from);
-            let part = part(&all, closed, [from, to], between);
+            let part = cage.rim_between(edge, between);
             (part.ok_or(RimError::NotBetween { surface, between })?, false)
         }
     };
@@ -53,59 +49,6 @@ pub(super) fn rim(
 fn edges(through: &[PointId], closed: bool) -> impl Iterator<Item = [PointId; 2]> + '_ {
     let next = through.iter().skip(1).chain(through.first().filter(|_| closed));
     through.iter().zip(next).map(|(a, b)| [*a, *b])
-}
-
-/// The vertices of the stretch that has the edge which begins at one, and whether it closes.
-fn whole(rim: &BTreeMap<PointId, RimEdge>, from: PointId) -> (Vec<PointId>, bool) {
-    let before: BTreeMap<PointId, PointId> = rim.iter().map(|(from, edge)| (edge.to, *from)).collect();
-    let turns = |point: PointId| rim.get(&point).is_none_or(|edge| edge.turns);
-    let mut first = from;
-    for _ in 0..rim.len() {
-        match before.get(&first) {
-            Some(point) if *point != from && !turns(first) => first = *point,
-            _ => break,
-        }
-    }
-    let closes = !turns(first);
-    if closes {
-        first = from;
-    }
-    let (mut through, mut at) = (vec![first], first);
-    while let Some(edge) = rim.get(&at) {
-        at = edge.to;
-        if closes && at == first {
-            break;
-        }
-        through.push(at);
-        if turns(at) || through.len() > rim.len() {
-            break;
-        }
-    }
-    (through, closes)
-}
-
-/// What of a stretch lies between two of its vertices and has an edge.
-fn part(
-    all: &[PointId],
-    closed: bool,
-    [from, to]: [PointId; 2],
-    between: [PointId; 2],
-) -> Option<Vec<PointId>> {
-    let count = all.len();
-    let place = |point: PointId| all.iter().position(|other| *other == point);
-    let [a, b] = [place(between[0])?, place(between[1])?];
-    let run = |first: usize, last: usize| -> Option<Vec<PointId>> {
-        let steps = if last > first {
-            last - first
-        } else if closed && first != last {
-            last + count - first
-        } else {
-            return None;
-        };
-        let run: Vec<PointId> = (0..=steps).map(|step| all[(first + step) % count]).collect();
-        run.windows(2).any(|pair| pair == [from, to]).then_some(run)
-    };
-    run(a, b).or_else(|| run(b, a))
 }
 
 /// Sets those curves free that are rims no more: they stay where they are, and are fair from now on.

@@ -1,4 +1,5 @@
-//! Dividing a face of a cage between two of its corners: the first is kept until the second is clicked.
+//! What is done between two vertices of a cage: dividing a face, and making a curve of a part of a rim. The first is kept until the
+//! second is clicked.
 
 use super::{Act, Selection, ToolKind, Toolbox, say};
 use crate::Hit;
@@ -6,9 +7,11 @@ use ductile_spec::{Document, Edit, PointId, SurfaceId};
 
 impl Toolbox {
     pub(super) fn divide_hint(&self) -> &'static str {
-        match self.end {
-            None => "Click a corner of the face that should be split.",
-            Some(_) => "Now click another corner of the face, along a line.",
+        match (self.rim, self.end) {
+            (Some(_), None) => "Click the vertex where the curve begins.",
+            (Some(_), Some(_)) => "Now click the vertex where it ends.",
+            (None, None) => "Click a corner of the face that should be split.",
+            (None, Some(_)) => "Now click another corner of the face, along a line.",
         }
     }
 
@@ -16,6 +19,36 @@ impl Toolbox {
     pub fn choose_divide(&mut self, first: Option<PointId>) {
         self.choose(ToolKind::Divide);
         self.end = first;
+    }
+
+    /// Awaits the vertices between which the rim at an edge becomes a curve, the edge within it.
+    pub fn choose_rim(&mut self, surface: SurfaceId, ends: [PointId; 2]) {
+        self.choose(ToolKind::Divide);
+        self.rim = Some((surface, ends));
+    }
+
+    /// The edge at a rim of which a part is to become a curve.
+    #[must_use]
+    pub fn rim(&self) -> Option<(SurfaceId, [PointId; 2])> {
+        self.rim
+    }
+
+    /// What between vertices would become a curve: the vertices along it.
+    #[must_use]
+    pub fn rim_part(&self, document: &Document, between: [PointId; 2]) -> Option<Vec<PointId>> {
+        let (surface, ends) = self.rim?;
+        let cage = document.cages.get(&surface)?;
+        cage.rim_between(cage.rim_edge(ends)?, between)
+    }
+
+    /// Where a curve of the rim could begin: the vertices of the whole stretch.
+    #[must_use]
+    pub fn rim_vertices(&self, document: &Document) -> Vec<PointId> {
+        let stretch = self.rim.and_then(|(surface, ends)| {
+            let cage = document.cages.get(&surface)?;
+            Some(cage.rim_stretch(cage.rim_edge(ends)?[0]).0)
+        });
+        stretch.unwrap_or_default()
     }
 
     pub(super) fn pick_corner(&mut self, hit: Option<&Hit>, document: &Document) -> Vec<Act> {
@@ -29,6 +62,13 @@ impl Toolbox {
             return vec![Act::Select(Selection::Point(corner))];
         };
         let between = [first, corner];
+        if let Some((surface, ends)) = self.rim {
+            if self.rim_part(document, between).is_none() {
+                return say("The edge that was chosen does not lie between these vertices of the rim.");
+            }
+            self.choose(ToolKind::Shape);
+            return vec![Act::Edit(Edit::Rim { surface, ends, between: Some(between) })];
+        }
         match face_between(document, between) {
             Ok((surface, face)) => {
                 self.end = None;
@@ -105,6 +145,31 @@ mod tests {
         }
         assert_eq!(tools.stretch_from(), Some(PointId(1)));
         assert!(matches!(tools.pick_corner(None, &cage())[..], [Act::Say(_)]));
+    }
+
+    #[test]
+    fn a_part_of_a_rim_is_picked_between_two_vertices() {
+        // Three quads in a row, the vertices 1 to 4 along one side.
+        let mut document = Document::default();
+        let faces = [[1, 2, 6, 5], [2, 3, 7, 6], [3, 4, 8, 7]].map(|face| face.map(PointId).to_vec());
+        document.cages.insert(SurfaceId(7), ductile_spec::Cage::new(faces.to_vec()));
+        let mut tools = Toolbox::default();
+        let (surface, ends) = (SurfaceId(7), [3, 2].map(PointId));
+        tools.choose_rim(surface, ends);
+        assert_eq!(
+            tools.rim_vertices(&document),
+            [1, 2, 3, 4].map(PointId),
+            "from where the rim turns to where it turns"
+        );
+        let mut click = |id: u32| {
+            let hit = Hit::Point { id: PointId(id), at: Vec3::ZERO };
+            tools.pick_corner(Some(&hit), &document)
+        };
+        click(1);
+        assert!(matches!(click(2)[..], [Act::Say(_)]), "the edge lies elsewhere");
+        let between = Some([1, 3].map(PointId));
+        assert_eq!(click(3), [Act::Edit(Edit::Rim { surface, ends, between })]);
+        assert_eq!((tools.kind(), tools.rim()), (ToolKind::Shape, None));
     }
 
     #[test]

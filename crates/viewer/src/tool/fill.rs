@@ -1,15 +1,78 @@
-//! The Fill tool: a click on a curve fills the loop through that place.
+//! The Fill tool: a click on a curve fills the loop through that place; of a closed curve the corners can be picked among its points.
 
-use super::{Act, Aim, Options, say};
+use super::{Act, Aim, Options, Toolbox, say};
 use crate::Hit;
-use ductile_spec::{CurveId, Edit, Hole};
+use ductile_spec::{CurveId, Document, Edit, Hole, PointId};
 
-pub(super) fn click(aim: Aim<'_>, options: &Options) -> Vec<Act> {
-    let Some(Hit::Curve { id, at }) = aim.hit else {
-        return say("There is no curve here. Click a curve of the loop, or a rim that a curve holds.");
+/// Fewest corners of a patch.
+const LEAST: usize = 3;
+
+impl Toolbox {
+    /// The corners that were picked for a fill.
+    #[must_use]
+    pub fn picked(&self) -> &[PointId] {
+        &self.picked
+    }
+
+    pub(super) fn fill_hint(&self) -> &'static str {
+        match self.picked.len() {
+            0 => "Click a curve to fill its loop, or points as corners.",
+            1..LEAST => "Click more corners on this curve, three or more.",
+            _ => "Enter fills between these corners. Or click more.",
+        }
+    }
+
+    /// Whether a point could be a corner: one of a closed curve that has those picked, too.
+    #[must_use]
+    pub fn could_be_corner(&self, document: &Document, point: PointId) -> bool {
+        curve_of(document, self.picked.iter().copied().chain([point])).is_some()
+    }
+
+    pub(super) fn click_fill(&mut self, aim: Aim<'_>, document: &Document) -> Vec<Act> {
+        match aim.hit {
+            Some(Hit::Point { id, .. }) if !self.could_be_corner(document, *id) => {
+                say("Corners are picked among the points of one closed curve.")
+            }
+            Some(Hit::Point { id, .. }) => {
+                let before = self.picked.len();
+                self.picked.retain(|other| other != id);
+                if self.picked.len() == before {
+                    self.picked.push(*id);
+                }
+                Vec::new()
+            }
+            Some(Hit::Curve { .. }) if !self.picked.is_empty() => self.fill_between(document),
+            Some(Hit::Curve { id, at }) => {
+                let hole = Hole::Near { curve: *id, at: Some(at.as_dvec3()) };
+                vec![Act::Edit(Edit::Fill { hole, style: self.options.fill })]
+            }
+            _ => say("There is no curve here. Click a curve of the loop, or a rim that a curve holds."),
+        }
+    }
+
+    /// Something was filled: the corners have done what they were picked for.
+    pub fn filled(&mut self) {
+        self.picked.clear();
+    }
+
+    /// Fills between the corners that were picked. They stay until that is done, for another join if this one is refused.
+    pub(super) fn fill_between(&mut self, document: &Document) -> Vec<Act> {
+        match curve_of(document, self.picked.iter().copied()) {
+            Some(curve) if self.picked.len() >= LEAST => {
+                let hole = Hole::Corners { curve, points: self.picked.clone() };
+                vec![Act::Edit(Edit::Fill { hole, style: self.options.fill })]
+            }
+            _ => say("A patch needs at least three corners: click more points of this curve."),
+        }
+    }
+}
+
+/// The closed curve that has all these points.
+pub fn curve_of(document: &Document, points: impl Iterator<Item = PointId> + Clone) -> Option<CurveId> {
+    let has_all = |(_, curve): &(&CurveId, &ductile_spec::Curve)| {
+        curve.closed && points.clone().all(|point| curve.through.contains(&point))
     };
-    let hole = Hole::Near { curve: *id, at: Some(at.as_dvec3()) };
-    vec![Act::Edit(Edit::Fill { hole, style: options.fill })]
+    document.curves.iter().find(has_all).map(|(id, _)| *id)
 }
 
 /// What fills all loops: of the network of a curve, or of all curves.
@@ -25,15 +88,50 @@ mod tests {
     #[cfg(target_arch = "wasm32")]
     use wasm_bindgen_test::wasm_bindgen_test as test;
 
+    fn click(tools: &mut Toolbox, document: &Document, hit: Option<Hit>) -> Vec<Act> {
+        tools.click_fill(Aim { hit: hit.as_ref(), ..Aim::default() }, document)
+    }
+
     #[test]
     fn a_click_on_a_curve_fills_there_as_chosen_and_one_beside_it_says_why_not() {
         let style = FillStyle { degree: Some(4), join: FillJoin::Position, ..FillStyle::default() };
-        let options = Options { fill: style, ..Options::default() };
+        let mut tools = Toolbox::default();
+        tools.options_mut().fill = style;
         let hit = Hit::Curve { id: CurveId(3), at: Vec3::Y };
         let hole = Hole::Near { curve: CurveId(3), at: Some(DVec3::Y) };
-        let aim = Aim { hit: Some(&hit), ..Aim::default() };
-        assert_eq!(click(aim, &options), [Act::Edit(Edit::Fill { hole, style })]);
-        assert!(matches!(click(Aim::default(), &options)[..], [Act::Say(_)]));
-        assert_eq!(all_loops(None, &options), Edit::FillNetwork { curve: None, style });
+        let document = Document::default();
+        assert_eq!(click(&mut tools, &document, Some(hit)), [Act::Edit(Edit::Fill { hole, style })]);
+        assert!(matches!(click(&mut tools, &document, None)[..], [Act::Say(_)]));
+        assert_eq!(tools.fill_all(None), Edit::FillNetwork { curve: None, style });
+    }
+
+    #[test]
+    fn corners_are_picked_among_the_points_of_one_closed_curve() {
+        let mut document = Document::default();
+        for (id, through, closed) in
+            [(1, [1, 2, 3, 4], true), (2, [5, 6, 7, 8], true), (3, [1, 9, 10, 11], false)]
+        {
+            let through = through.map(PointId).to_vec();
+            document.curves.insert(CurveId(id), ductile_spec::Curve::new(through, closed));
+        }
+        let mut tools = Toolbox::default();
+        tools.choose(super::super::ToolKind::Fill);
+        let point = |id: u32| Some(Hit::Point { id: PointId(id), at: Vec3::ZERO });
+        let on_curve = Some(Hit::Curve { id: CurveId(1), at: Vec3::ZERO });
+        assert!(matches!(click(&mut tools, &document, point(9))[..], [Act::Say(_)]), "its curve is open");
+        for id in [4, 1, 3, 3] {
+            assert!(click(&mut tools, &document, point(id)).is_empty());
+        }
+        assert_eq!(tools.picked(), [4, 1].map(PointId), "the same once more is let go");
+        assert!(matches!(click(&mut tools, &document, point(5))[..], [Act::Say(_)]), "of another curve");
+        assert!(matches!(click(&mut tools, &document, on_curve)[..], [Act::Say(_)]), "two are too few");
+        assert!(tools.is_under_way());
+        click(&mut tools, &document, point(2));
+        let hole = Hole::Corners { curve: CurveId(1), points: [4, 1, 2].map(PointId).to_vec() };
+        let filled = Act::Edit(Edit::Fill { hole, style: FillStyle::default() });
+        assert_eq!(click(&mut tools, &document, on_curve), [filled]);
+        assert_eq!(tools.picked().len(), 3, "it may be refused");
+        tools.filled();
+        assert!(!tools.is_under_way());
     }
 }

@@ -140,6 +140,7 @@ impl ToolKind {
                 | Self::Ribbon
                 | Self::Cage
                 | Self::Divide
+                | Self::Fill
         )
     }
 
@@ -178,7 +179,7 @@ impl ToolKind {
             (Self::Draw, Hit::Point { id, .. }) => {
                 entry(structure, *id).is_some_and(|point| point.role != PointRole::Free)
             }
-            (Self::Ribbon | Self::Divide, Hit::Point { id, .. }) => {
+            (Self::Ribbon, Hit::Point { id, .. }) => {
                 entry(structure, *id).is_some_and(|point| point.role == PointRole::Surface)
             }
             (Self::Sweep, Hit::Point { id, .. }) => {

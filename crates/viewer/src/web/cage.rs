@@ -99,8 +99,14 @@ impl Page {
         mark.parts.extend(over.map(|places| NetPart { places, is_selected: false }));
     }
 
-    /// Whether a click on something could divide a face, if that is what the tool in hand does.
+    /// Whether a click on something could divide a face, or end a curve at a rim, if that is what the tool in hand does.
     pub(crate) fn could_divide(&self, hit: &Hit) -> bool {
+        if let (Some(_), Hit::Point { id, .. }) = (self.tools.rim(), hit) {
+            return match self.tools.stretch_from() {
+                Some(first) => first == *id || self.tools.rim_part(&self.document, [first, *id]).is_some(),
+                None => self.tools.rim_vertices(&self.document).contains(id),
+            };
+        }
         match (self.tools.kind(), hit, self.tools.stretch_from()) {
             (ToolKind::Divide, Hit::Point { id, .. }, Some(first)) => {
                 first == *id || face_between(&self.document, [first, *id]).is_ok()
@@ -112,6 +118,10 @@ impl Page {
 
     /// The corner that a split begins at, where it could lead, and the new edge under the pointer.
     pub(crate) fn mark_split(&self, mark: &mut Highlight) {
+        if self.tools.rim().is_some() {
+            self.mark_rim_part(mark);
+            return;
+        }
         let Some(first) = self.tools.stretch_from() else { return };
         mark.selected.push(first);
         let faces = self.document.cages.values().flat_map(|cage| &cage.faces);
@@ -126,6 +136,20 @@ impl Page {
             let places = self.edge_places([first, id]);
             mark.parts.extend(places.map(|places| NetPart { places, is_selected: false }));
         }
+    }
+
+    /// The edge at a rim that was chosen, where a curve along the rim would begin, and what would become one.
+    fn mark_rim_part(&self, mark: &mut Highlight) {
+        let edge = self.tools.rim().and_then(|(_, ends)| self.edge_places(ends));
+        mark.parts.extend(edge.map(|places| NetPart { places, is_selected: true }));
+        let Some(first) = self.tools.stretch_from() else { return };
+        mark.selected.push(first);
+        let over = match mark.hover {
+            Some(Hit::Point { id, .. }) => self.tools.rim_part(&self.document, [first, id]),
+            _ => None,
+        };
+        let places = over.iter().flatten().filter_map(|point| self.scene.point(*point));
+        mark.sketch.extend(over.is_some().then(|| places.collect()));
     }
 
     /// Awaits the corners between which a face should be split; a selected vertex is the first.
@@ -193,7 +217,9 @@ impl Page {
         };
         dom::show(&dom::element("face-properties"), is_face);
         dom::show(&dom::element("edge-properties"), is_edge);
-        dom::show(&dom::element("rim-curve"), self.is_at_rim());
+        for button in ["rim-curve", "rim-between"] {
+            dom::show(&dom::element(button), self.is_at_rim());
+        }
         let caged = self.caged();
         dom::show(&dom::element("cage-properties"), caged.is_some());
         let Some((_, cage)) = caged else { return };
@@ -317,6 +343,13 @@ impl Page {
             "rim-curve" => {
                 if let Selection::Edge { surface, ends } = self.selection {
                     self.request(Request::Edit(Edit::Rim { surface, ends, between: None }));
+                }
+            }
+            "rim-between" => {
+                if let Selection::Edge { surface, ends } = self.selection {
+                    self.tools.choose_rim(surface, ends);
+                    self.hand.hover_is_stale = true;
+                    self.refresh();
                 }
             }
             _ => return false,

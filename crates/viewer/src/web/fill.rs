@@ -65,13 +65,18 @@ impl Page {
     /// The place of a curve at which the tool points.
     fn looped(&self) -> Option<(CurveId, glam::Vec3)> {
         match self.hand.hover {
-            Some(Hit::Curve { id, at }) if self.tools.kind() == ToolKind::Fill => Some((id, at)),
+            Some(Hit::Curve { id, at })
+                if self.tools.kind() == ToolKind::Fill && self.tools.picked().is_empty() =>
+            {
+                Some((id, at))
+            }
             _ => None,
         }
     }
 
-    /// The loop that a click would fill, with lines from its sides to its middle.
+    /// The loop that a click would fill, with lines from its sides to its middle; or the corners that were picked.
     pub(crate) fn mark_loop(&self, mark: &mut Highlight) {
+        mark.selected.extend(self.tools.picked());
         let Some((curve, _)) = self.looped() else { return };
         let sides = self.looping.sides(curve);
         if !sides.is_empty() {
@@ -152,6 +157,8 @@ impl Page {
     pub(crate) fn show_fill_option(&self) {
         let is_fill = self.tools.kind() == ToolKind::Fill;
         dom::show(&dom::element("fill-option"), is_fill);
+        // Enter means the corners while there are some.
+        dom::show(&dom::element("fill-all"), self.tools.picked().is_empty());
         show_style(0, self.tools.options().fill);
     }
 

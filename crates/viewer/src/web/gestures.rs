@@ -164,6 +164,13 @@ impl Page {
         match self.tools.kind() {
             // It is about curves: their points do not stand before them.
             ToolKind::Ribbon => among(Wanted { points: false, ..wanted }).or_else(|| among(wanted)),
+            // Points that are no corners do not stand before the curve.
+            ToolKind::Fill => match among(wanted) {
+                Some(Hit::Point { id, .. }) if !self.tools.could_be_corner(&self.document, id) => {
+                    among(Wanted { points: false, ..wanted })
+                }
+                hit => hit,
+            },
             ToolKind::Displace => self.displaceable_at(at, wanted),
             _ => self.cage_part_at(at, among(wanted)),
         }

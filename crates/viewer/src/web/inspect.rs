@@ -155,7 +155,8 @@ impl Page {
         named(Selection::of(self.hand.hover.as_ref()))
     }
 
-    /// What the tool in hand marks in the picture: how many parts are tinted, how many rims and lines are drawn.
+    /// What the tool in hand marks in the picture: how many parts are tinted, how many rims and lines are drawn, how many points
+    /// are chosen.
     fn described_marks(&self) -> Object {
         let marks = self.highlight();
         let out = Object::new();
@@ -164,6 +165,7 @@ impl Page {
         put(&out, "lines", number(marks.sketch.len()));
         put(&out, "strips", number(marks.strips.len()));
         put(&out, "parts", number(marks.parts.len()));
+        put(&out, "points", number(marks.selected.len()));
         out
     }
 

@@ -181,7 +181,7 @@ impl Page {
         match name {
             "escape" => self.escape(),
             "enter" if self.tools.kind() == ToolKind::Merge => self.merge_closest(),
-            "enter" if self.tools.kind() == ToolKind::Fill => self.fill_all(),
+            "enter" if self.tools.kind() == ToolKind::Fill && !self.tools.is_under_way() => self.fill_all(),
             "enter" => self.tool_key(ToolKey::Done),
             "backspace" if self.tools.is_under_way() => self.tool_key(ToolKey::Back),
             "backspace" | "delete" => self.delete_selected(),

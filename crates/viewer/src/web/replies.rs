@@ -237,6 +237,9 @@ impl Page {
             return;
         }
         self.leave_address();
+        if act == "Fill" {
+            self.tools.filled();
+        }
         if act == "Import" {
             self.import_came(&before);
             return;
