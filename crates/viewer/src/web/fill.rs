@@ -21,7 +21,7 @@ const DEGREES: [(u8, &str); 8] =
 /// An angle between tangent planes, in degrees, that isophotes show.
 const VISIBLE: f64 = 0.5;
 /// What is said beside a larger one.
-const WHAT_HELPS: &str = " Its sides bend more often than polynomials of this degree do: a higher degree comes nearer, or shorter sides, with a corner picked where they bend.";
+const WHAT_HELPS: &str = " Its sides bend more often than polynomials of this degree do: a higher degree comes nearer, or shorter sides, with curves that leave the rim where it bends.";
 /// Most edges along a side.
 const MOST_RESOLUTION: f64 = 64.0;
 
