@@ -44,7 +44,7 @@ fn normal(mesh: &Mesh, positions: &[DVec3], normals: &[DVec3], v: VertexId) -> O
     let h =
         around.get(..first)?.iter().map(|w| positions[w.index()].distance(at)).sum::<f64>() / first as f64;
     let leans = |w: &VertexId| normals[w.index()].dot(up).abs() < LEANING;
-    if around.len() < LEAST || !(h > 0.0) || up == DVec3::ZERO || around.iter().any(leans) {
+    if around.len() < LEAST || h.is_nan() || h <= 0.0 || up == DVec3::ZERO || around.iter().any(leans) {
         return None;
     }
     let (x, y) = up.any_orthonormal_pair();
