@@ -31,7 +31,6 @@ mod tests;
 pub use around::Around;
 pub use divide::face_between;
 pub use drag::{Arrow, Axis, Drag, grid_step, nudge_direction, work_plane};
-pub use fill::curve_of;
 pub use ghost::ghost_line;
 pub use handle::{Arm, handles_at};
 pub use kind::ToolKind;

@@ -68,7 +68,7 @@ impl Toolbox {
 }
 
 /// The closed curve that has all these points.
-pub fn curve_of(document: &Document, points: impl Iterator<Item = PointId> + Clone) -> Option<CurveId> {
+fn curve_of(document: &Document, points: impl Iterator<Item = PointId> + Clone) -> Option<CurveId> {
     let has_all = |(_, curve): &(&CurveId, &ductile_spec::Curve)| {
         curve.closed && points.clone().all(|point| curve.through.contains(&point))
     };
