@@ -130,6 +130,31 @@ pub fn moebius() -> Document {
     document
 }
 
+/// A tube on three circles, each through four points: two of radius 1, so far above and below the third, its waist.
+#[must_use]
+pub fn waisted(waist: f64, half: f64) -> Document {
+    let mut document = Document::default();
+    let (mut triangles, mut curves) = (Vec::new(), Vec::new());
+    for (ring, (radius, height)) in (0_u32..).zip([(1.0, -half), (waist, 0.0), (1.0, half)]) {
+        let mut through = Vec::new();
+        for (k, [x, y]) in (0_u32..).zip([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]]) {
+            let id = PointId(4 * ring + k + 1);
+            document.points.insert(id, dvec3(radius * x, radius * y, height));
+            through.push(id);
+            if ring < 2 {
+                let at = |ring: u32, k: u32| 4 * ring + k % 4;
+                let (a, b, c, d) = (at(ring, k), at(ring, k + 1), at(ring + 1, k + 1), at(ring + 1, k));
+                triangles.extend([[a, b, d], [b, c, d]]);
+            }
+        }
+        document.curves.insert(CurveId(ring + 1), Curve::new(through, true));
+        curves.push(Embedding { curve: CurveId(ring + 1), along: (4 * ring..4 * ring + 4).collect() });
+    }
+    let vertices = (1..=12).map(|id| SkeletonVertex::Control(PointId(id))).collect();
+    document.surfaces.insert(SurfaceId(1), Surface::new(Skeleton { vertices, triangles, curves }));
+    document
+}
+
 /// Two unit discs, one over the other.
 #[must_use]
 pub fn two_discs() -> Document {

@@ -8,6 +8,7 @@
 
 mod bend;
 mod ends;
+mod neck;
 mod relief;
 mod skeleton;
 
@@ -19,7 +20,7 @@ use crate::region;
 use crate::shape::{CurveShape, SurfaceShape, edit};
 use ductile_mesh::remesh::Sizing;
 use ductile_mesh::{VertexId, regions};
-use ductile_spec::{CurveId, Density, Surface, SurfaceId};
+use ductile_spec::{CurveId, Density, Objective, Surface, SurfaceId};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Wanted lengths grow by at most this part of the way along edges.
@@ -60,28 +61,42 @@ fn graded_and(model: &Model, is_so_anyway: impl Fn(SurfaceId) -> bool) -> BTreeS
     }
 }
 
-/// Brings the wanted lengths of all surfaces up to their shapes.
-pub(crate) fn update(model: &mut Model, bound: &BTreeMap<SurfaceId, BoundSurface>) {
+/// Brings the wanted lengths of all surfaces up to their shapes, as far as these have come to themselves.
+pub(crate) fn update(
+    model: &mut Model,
+    bound: &BTreeMap<SurfaceId, BoundSurface>,
+    is_steady: impl Fn(SurfaceId) -> bool,
+) {
+    let bound =
+        |id: &SurfaceId, shape: &SurfaceShape| bound.get(id).filter(|bound| bound.revision == shape.revision);
+    let mut fields: BTreeMap<SurfaceId, Vec<f64>> = BTreeMap::new();
+    let mut thin = BTreeSet::new();
+    for (id, shape) in &model.surfaces {
+        let Some(surface) = model.document.surfaces.get(id) else { continue };
+        let mut field = own(shape, surface, 1.0);
+        relief::shorten(&mut field, model, shape, surface);
+        let around_ends = ends::longest(&field, model, shape);
+        let (density, bound) = (model.document.density_of_surface(*id), bound(id, shape));
+        if let (Density::Curvature, Some(bound)) = (density, bound) {
+            bend::shorten(&mut field, bound);
+        }
+        field.iter_mut().zip(around_ends).for_each(|(h, end)| *h = h.min(end));
+        if density == Density::Uniform
+            && !is_film(model, *id, surface)
+            && let Some(parts) = neck::parts(model, &field, shape, (bound, is_steady(*id)))
+        {
+            field.iter_mut().zip(parts).for_each(|(h, part)| *h *= part);
+            thin.insert(*id);
+        }
+        fields.insert(*id, field);
+    }
     let ends_inside = |id| model.surfaces.get(&id).is_some_and(|shape| ends::has_any(model, shape));
-    let graded = graded_and(model, ends_inside);
+    let graded = graded_and(model, |id| thin.contains(&id) || ends_inside(id));
+    fields.retain(|id, _| graded.contains(id));
     for (_, shape) in
         model.surfaces.iter_mut().filter(|(id, shape)| !graded.contains(id) && !shape.wanted.is_empty())
     {
         edit(shape).wanted.clear();
-    }
-    let mut fields: BTreeMap<SurfaceId, Vec<f64>> = BTreeMap::new();
-    for id in &graded {
-        if let (Some(shape), Some(surface)) = (model.surfaces.get(id), model.document.surfaces.get(id)) {
-            let mut field = own(shape, surface, 1.0);
-            relief::shorten(&mut field, model, shape, surface);
-            let around_ends = ends::longest(&field, model, shape);
-            let bound = bound.get(id).filter(|bound| bound.revision == shape.revision);
-            if let (Density::Curvature, Some(bound)) = (model.document.density_of_surface(*id), bound) {
-                bend::shorten(&mut field, bound);
-            }
-            field.iter_mut().zip(around_ends).for_each(|(h, end)| *h = h.min(end));
-            fields.insert(*id, field);
-        }
     }
     // Twice: the second time a surface hears what has spread to its curves from the far side of its neighbour.
     for _ in 0..fields.len().min(2) {
@@ -97,6 +112,13 @@ pub(crate) fn update(model: &mut Model, bound: &BTreeMap<SurfaceId, BoundSurface
             keep(&mut shape.wanted, field);
         }
     }
+}
+
+/// Whether a surface is a film somewhere, which bends without bound at a point that holds it, however fine its mesh.
+fn is_film(model: &Model, id: SurfaceId, surface: &Surface) -> bool {
+    let mut objectives = surface.regions.iter().filter_map(|region| region.objective);
+    model.document.objective_of_surface(id) == Objective::Membrane
+        || objectives.any(|objective| objective == Objective::Membrane)
 }
 
 /// What a surface wants before it is bound: its own lengths and those of the edges of its curves, `coarseness` times as long

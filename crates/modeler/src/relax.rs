@@ -21,6 +21,10 @@ const SLOW_STEPS: u32 = 3;
 const MOST_ROUNDS: u32 = 60;
 /// Rounds of these in which vertices may be collapsed away: splits and collapses could answer each other for ever.
 const COLLAPSING_ROUNDS: u32 = 40;
+/// A step that promises to lower the energy by less than this part ends near the rest: the bends of the shape tell how fine it should be.
+const STEADY: f64 = 0.01;
+/// They do from this round on in any case: a neck that the mesh cannot show may never rest.
+const STEADY_ROUNDS: u32 = 8;
 /// Part of the spacing by which a vertex may creep, while the shape still moves, before the mesh around it is looked at
 /// again. At rest everything is looked at.
 const SLACK: f64 = 0.02;
@@ -235,7 +239,7 @@ impl Relaxer {
         let is_due = self.phase.is_multiple_of(MAINTENANCE_PERIOD) && self.fast == 0;
         // A mesh that still does can wait until the hand rests: a new one costs the frame a new factorisation.
         if is_due && (!is_moving || self.is_worn(model)) {
-            self.maintain(model);
+            self.maintain(model, is_moving);
         }
         self.surfaces.values_mut().for_each(BoundSurface::fit);
     }
@@ -349,7 +353,7 @@ impl Relaxer {
     }
 
     /// Improves the meshes (thesis chapter 6) and binds anew what was changed.
-    fn maintain(&mut self, model: &mut Model) {
+    fn maintain(&mut self, model: &mut Model, is_moving: bool) {
         if self.rounds >= MOST_ROUNDS {
             self.states.values_mut().for_each(|state| state.is_quiet = true);
             self.are_curves_quiet = true;
@@ -363,7 +367,10 @@ impl Relaxer {
         self.rounds += 1;
         // With the last collapses the wanted lengths stay as they are, too: then rest is certain.
         if self.rounds <= COLLAPSING_ROUNDS {
-            density::update(model, &self.surfaces);
+            let has_come = |state: &Relaxation| state.at_rest || state.residual < STEADY;
+            let has_come = |id| self.states.get(&id).is_some_and(has_come);
+            let is_steady = |id| has_come(id) || (self.rounds >= STEADY_ROUNDS && !is_moving);
+            density::update(model, &self.surfaces, is_steady);
         }
         self.are_curves_quiet = true;
         for id in model.curves.keys().copied().collect::<Vec<_>>() {
