@@ -67,6 +67,7 @@ fn necks_of_any_thickness_cost_what_they_cost_on_a_fine_mesh() {
     }
 }
 
+/// Sixteen edges round a neck price it to 2 % or so on a regular mesh; how its triangles happen to lie is another percent.
 #[test]
 fn a_thin_neck_is_the_same_on_any_mesh() {
     let document = waisted(0.05, HALF);
@@ -74,7 +75,7 @@ fn a_thin_neck_is_the_same_on_any_mesh() {
     let [.., finest] = energies;
     let off = energies.map(|energy| (energy / finest - 1.0).abs());
     println!("energies {energies:?}, off by {off:?}");
-    assert!(off[..3].iter().zip([0.04, 0.03, 0.02]).all(|(off, most)| *off < most), "{energies:?}");
+    assert!(off[..3].iter().zip([0.03; 3]).all(|(off, most)| *off < most), "{energies:?}");
 }
 
 #[test]

@@ -82,7 +82,7 @@ pub(crate) fn update(
         }
         field.iter_mut().zip(around_ends).for_each(|(h, end)| *h = h.min(end));
         if density == Density::Uniform
-            && !is_film(model, *id, surface)
+            && is_plate(model, *id, surface)
             && let Some(parts) = neck::parts(model, &field, shape, (bound, is_steady(*id)))
         {
             field.iter_mut().zip(parts).for_each(|(h, part)| *h *= part);
@@ -114,11 +114,24 @@ pub(crate) fn update(
     }
 }
 
-/// Whether a surface is a film somewhere, which bends without bound at a point that holds it, however fine its mesh.
-fn is_film(model: &Model, id: SurfaceId, surface: &Surface) -> bool {
+/// Whether the curves inside of surfaces ask for edges so much shorter than those that there are that the next batch would come too late.
+pub(crate) fn is_overdue(model: &Model, bound: &BTreeMap<SurfaceId, BoundSurface>) -> bool {
+    let has_own = |id: SurfaceId, surface: &Surface| {
+        model.document.density_of_surface(id) == Density::Uniform && is_plate(model, id, surface)
+    };
+    model.surfaces.iter().any(|(id, shape)| {
+        let surface = model.document.surfaces.get(id).filter(|surface| has_own(*id, surface));
+        let bound = bound.get(id).filter(|bound| bound.revision == shape.revision);
+        surface.and(bound).is_some_and(|bound| neck::is_overdue(model, shape, bound))
+    })
+}
+
+/// Whether it is bending alone that a surface minimises, everywhere. A film bends without bound at a point that holds it, however fine
+/// its mesh, and what is `fair` does not draw together.
+fn is_plate(model: &Model, id: SurfaceId, surface: &Surface) -> bool {
+    let is_bending = |objective| matches!(objective, Objective::ThinPlate | Objective::Neutral);
     let mut objectives = surface.regions.iter().filter_map(|region| region.objective);
-    model.document.objective_of_surface(id) == Objective::Membrane
-        || objectives.any(|objective| objective == Objective::Membrane)
+    is_bending(model.document.objective_of_surface(id)) && objectives.all(is_bending)
 }
 
 /// What a surface wants before it is bound: its own lengths and those of the edges of its curves, `coarseness` times as long

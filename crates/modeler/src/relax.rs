@@ -238,7 +238,8 @@ impl Relaxer {
         }
         let is_due = self.phase.is_multiple_of(MAINTENANCE_PERIOD) && self.fast == 0;
         // A mesh that still does can wait until the hand rests: a new one costs the frame a new factorisation.
-        if is_due && (!is_moving || self.is_worn(model)) {
+        let is_overdue = self.fast == 0 && density::is_overdue(model, &self.surfaces);
+        if is_due && (!is_moving || self.is_worn(model)) || is_overdue {
             self.maintain(model, is_moving);
         }
         self.surfaces.values_mut().for_each(BoundSurface::fit);

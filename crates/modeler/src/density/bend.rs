@@ -28,32 +28,39 @@ fn length(curvature: f64, spacing: f64) -> f64 {
 
 /// Replaces the spacing at each vertex by what the curvature there asks for.
 pub(super) fn shorten(field: &mut [f64], bound: &BoundSurface) {
-    let squared = squared_curvatures(bound, |_| false);
+    let squared = squared_curvatures(bound);
     for (v, squared) in bound.vertices().iter().zip(squared) {
         let spacing = &mut field[v.index()];
         *spacing = length(squared.sqrt(), *spacing);
     }
 }
 
-/// The squared largest curvature of every node, smoothed. What is `mute` has no say in it.
-pub(super) fn squared_curvatures(bound: &BoundSurface, mute: impl Fn(VertexId) -> bool) -> Vec<f64> {
-    let rings = bound.solver.rings();
+/// The squared largest curvature of every node, smoothed.
+fn squared_curvatures(bound: &BoundSurface) -> Vec<f64> {
     // A fit whose Jacobian J is below 1 sees the surface turn by about 2 √(1 - J) within its ring: that tells of bends so
     // narrow that the quadratic misses them.
     let mean_edges = bound.solver.mean_edges();
     let fits = bound.solver.curvatures().zip(bound.solver.jacobians()).zip(mean_edges);
-    let mut squared: Vec<f64> = fits
-        .map(|((curvature, jacobian), h)| {
-            let seen = curvature.largest();
-            let missed = 4.0 * (1.0 - jacobian).max(0.0) / (h * h);
-            (seen * seen).max(missed)
-        })
-        .collect();
+    let squared = fits.map(|((curvature, jacobian), h)| {
+        let seen = curvature.largest();
+        let missed = 4.0 * (1.0 - jacobian).max(0.0) / (h * h);
+        (seen * seen).max(missed)
+    });
+    smoothed(bound, squared.collect(), |_| false)
+}
+
+/// Squared curvatures of the nodes, averaged over rings. What is `mute` has no say in it.
+pub(super) fn smoothed(
+    bound: &BoundSurface,
+    mut squared: Vec<f64>,
+    mute: impl Fn(VertexId) -> bool,
+) -> Vec<f64> {
+    let rings = bound.solver.rings();
     // Rings at the boundary see one side only; what their inner neighbours see counts.
-    let counts: Vec<bool> =
-        (0..squared.len()).map(|node| !rings.is_boundary(node) && squared[node].is_finite()).collect();
-    let counts: Vec<bool> =
-        counts.iter().zip(bound.vertices()).map(|(counts, v)| *counts && !mute(*v)).collect();
+    let vertices = bound.vertices().iter().enumerate();
+    let counts: Vec<bool> = vertices
+        .map(|(node, v)| !rings.is_boundary(node) && squared[node].is_finite() && !mute(*v))
+        .collect();
     for round in 0..ROUNDS {
         let before = squared.clone();
         for (node, squared) in squared.iter_mut().enumerate() {
@@ -68,8 +75,8 @@ pub(super) fn squared_curvatures(bound: &BoundSurface, mute: impl Fn(VertexId) -
     squared
 }
 
-/// The squared curvature of a curve at each sample, averaged over neighbours.
-pub(super) fn squared_along(shape: &CurveShape) -> Vec<f64> {
+/// The lengths wanted along a curve by its own curvature, with a bounded slope.
+pub(super) fn of_curve(shape: &CurveShape, spacing: f64, slope: f64) -> Vec<f64> {
     let count = shape.nodes.len();
     let around = |k: usize| {
         let is_end = !shape.closed && (k == 0 || k + 1 == count);
@@ -83,13 +90,7 @@ pub(super) fn squared_along(shape: &CurveShape) -> Vec<f64> {
         .collect();
     let smooth =
         |k: usize| around(k).map_or(squared[k], |(a, b)| (squared[a] + squared[k] + squared[b]) / 3.0);
-    (0..count).map(smooth).collect()
-}
-
-/// The lengths wanted along a curve by its own curvature, with a bounded slope.
-pub(super) fn of_curve(shape: &CurveShape, spacing: f64, slope: f64) -> Vec<f64> {
-    let mut wanted: Vec<f64> =
-        squared_along(shape).into_iter().map(|squared| length(squared.sqrt(), spacing)).collect();
+    let mut wanted: Vec<f64> = (0..count).map(|k| length(smooth(k).sqrt(), spacing)).collect();
     let edges: Vec<_> = (0..shape.edge_count()).map(|edge| shape.edge(edge)).collect();
     // Twice each way: around a closed curve the first sample hears of the last.
     for _ in 0..2 {

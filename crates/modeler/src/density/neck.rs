@@ -1,7 +1,7 @@
 //! Finer edges where the mesh is too coarse for its shape: necks and tubes with few edges round them, in documents that ask for the
 //! same density everywhere, too.
 //!
-//! Round a tube of radius `r` run `2 π r / h` edges. With sixteen its bending is priced to 2 % or so; with eight the quadratics
+//! Round a tube of radius `r` run `2 π r / h` edges. With twenty its bending is priced to 1 or 2 %; with eight the quadratics
 //! miss a tenth of it, and with six half: then a neck costs less the thinner it is, and draws together to a string (recipe, section
 //! 7: "require kmax h <= 0.7 and J >= 0.7 everywhere, else refine"). So `h <= c r`, where `r` is the smaller radius of curvature.
 //!
@@ -19,13 +19,15 @@ use ductile_mesh::VertexId;
 /// Edges round a tube from which on all is well, up to which it gets [`ROUND`], and those that it gets.
 const ENOUGH: f64 = 9.0;
 const FEW: f64 = 7.5;
-const ROUND: f64 = 16.0;
+const ROUND: f64 = 20.0;
 /// Part by which the curvature found may change before a length is given up.
 const PLAY: f64 = 1.35;
 /// Shortest edges, as a part of what they would be without: not all that is thin can be shown.
 const LEAST: f64 = 0.125;
 /// Where a mesh is finer than that already, nothing was asked for by necks.
 const NOTICED: f64 = 0.87;
+/// A surface whose curves want less than this part of what it has is not left to the next batch.
+const OVERDUE: f64 = 0.7;
 /// Most nodes that necks may ask for: as many times those that the surface would have without.
 const MOST_GROWTH: f64 = 1.5;
 /// And this many in any case.
@@ -56,16 +58,20 @@ pub(super) fn parts(
     let mut parts = vec![1.0; field.len()];
     shape.mesh.vertices().for_each(|v| parts[v.index()] = was(v.index()));
     if let Some(bound) = bound {
+        let mut held = vec![1.0; field.len()];
+        of_curves(&mut held, model, field, shape, bound);
+        let is_held = held.iter().any(|part| *part < NOTICED);
         // A point that holds a plate bends it without bound.
         let is_pin = |v: VertexId| shape.pins.iter().any(|pin| pin.vertex == v);
-        let squared = bend::squared_curvatures(bound, is_pin);
+        let seen = bound.solver.curvatures().map(|curvature| curvature.largest()).map(|seen| seen * seen);
+        let squared = bend::smoothed(bound, seen.collect(), is_pin);
         let most = most_nodes(field, bound);
-        let may_shorten = is_steady && (shape.mesh.vertex_count() as f64) < most;
+        let may_shorten = is_steady && is_held && (shape.mesh.vertex_count() as f64) < most;
         for (v, squared) in bound.vertices().iter().map(|v| v.index()).zip(squared) {
             let turn = squared.sqrt() * field[v];
             parts[v] = parts[v].clamp(part(PLAY * turn), if may_shorten { part(turn) } else { 1.0 });
         }
-        of_curves(&mut parts, model, field, shape);
+        parts.iter_mut().zip(held).for_each(|(part, held)| *part = part.min(held));
         afford(&mut parts, field, bound, most);
     }
     let least = parts.iter().copied().fold(1.0, f64::min);
@@ -94,16 +100,45 @@ fn afford(parts: &mut [f64], field: &[f64], bound: &BoundSurface, most: f64) {
     parts.iter_mut().for_each(|part| *part = part.max(floor.min(1.0)));
 }
 
-/// What the curves inside a surface leave by themselves: it bends at least as they do, or turns with them. They are at rest long before
-/// the surface is, and a waist that is held by one must have its edges early, or it draws together.
-fn of_curves(parts: &mut [f64], model: &Model, field: &[f64], shape: &SurfaceShape) {
+/// What the curves inside a surface leave by themselves. They are at rest long before the surface is, and a waist that is held by one
+/// must have its edges early, or it draws together.
+fn of_curves(parts: &mut [f64], model: &Model, field: &[f64], shape: &SurfaceShape, bound: &BoundSurface) {
+    along_curves(model, shape, bound, |v, curvature| {
+        parts[v] = parts[v].min(part(curvature * field[v]));
+    });
+}
+
+/// Whether the curves inside a surface ask for edges much shorter than are wanted now.
+pub(super) fn is_overdue(model: &Model, shape: &SurfaceShape, bound: &BoundSurface) -> bool {
+    let mut is_overdue = false;
+    along_curves(model, shape, bound, |v, curvature| {
+        let wanted = shape.wanted.get(v).copied().unwrap_or(shape.spacing);
+        is_overdue |= part(curvature * shape.spacing) * shape.spacing < OVERDUE * wanted;
+    });
+    is_overdue
+}
+
+/// Visits the vertices on curves inside a surface with the normal curvature of their curve there, which is the surface's in that
+/// direction. (How a curve turns within the surface bends nothing.)
+fn along_curves(
+    model: &Model,
+    shape: &SurfaceShape,
+    bound: &BoundSurface,
+    mut visit: impl FnMut(usize, f64),
+) {
     for embedded in &shape.embeddings {
         let Some(curve) = model.curves.get(&embedded.curve) else { continue };
-        let squared = bend::squared_along(curve);
-        for (v, squared) in embedded.vertices.iter().zip(squared) {
-            if !shape.mesh.is_boundary_vertex(*v) {
-                let v = v.index();
-                parts[v] = parts[v].min(part(squared.sqrt() * field[v]));
+        let squared: Vec<f64> = (0..curve.nodes.len())
+            .zip(&embedded.vertices)
+            .map(|(k, v)| curve.second_derivative(k).dot(bound.normals()[bound.node(*v) as usize]))
+            .map(|curvature| curvature * curvature)
+            .collect();
+        let count = squared.len();
+        for (k, v) in embedded.vertices.iter().enumerate().take(count) {
+            let is_end = !curve.closed && (k == 0 || k + 1 == count);
+            if !is_end && !shape.mesh.is_boundary_vertex(*v) {
+                let around = squared[(k + count - 1) % count] + squared[k] + squared[(k + 1) % count];
+                visit(v.index(), (around / 3.0).sqrt());
             }
         }
     }
@@ -116,13 +151,13 @@ mod tests {
     use wasm_bindgen_test::wasm_bindgen_test as test;
 
     #[test]
-    fn parts_leave_what_is_fine_alone_and_give_sixteen_edges_to_what_is_not() {
+    fn parts_leave_what_is_fine_alone_and_give_twenty_edges_to_what_is_not() {
         for edges in [9.0, 12.0, 100.0, f64::INFINITY] {
             assert_eq!(part(TAU / edges * 0.999), 1.0, "{edges} round");
         }
         assert_eq!(part(f64::NAN), 1.0);
         for edges in [7.0, 5.0, 3.0] {
-            assert!((edges / part(TAU / edges) - 16.0).abs() < 1e-9, "{edges} round");
+            assert!((edges / part(TAU / edges) - 20.0).abs() < 1e-9, "{edges} round");
         }
         // What is thinner than a dozenth of an edge is not shown.
         assert_eq!(part(TAU), LEAST);
