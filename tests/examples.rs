@@ -28,16 +28,16 @@ const fn known(example: Example, kind: (i64, usize, bool), energy: f64, angle: f
 }
 
 const KNOWN: [Known; Example::BUILT.len()] = [
-    known(Example::Torus, (0, 0, true), 87.131, 30.0),
-    known(Example::PartyHat, (-2, 4, true), 71.746, 30.0),
-    known(Example::CappedCylinder, (2, 0, true), 25.046, 30.0),
-    known(Example::GluedCylinders, (0, 2, true), 24.843, 30.0),
-    known(Example::Handle, (-2, 0, true), 190.442, 25.0),
-    known(Example::KleinMug, (0, 0, false), 144.878, 25.0),
-    known(Example::ThreeHandles, (-4, 0, true), 212.963, 25.0),
+    known(Example::Torus, (0, 0, true), 87.135, 26.5),
+    known(Example::PartyHat, (-2, 4, true), 72.019, 30.0),
+    known(Example::CappedCylinder, (2, 0, true), 25.058, 30.0),
+    known(Example::GluedCylinders, (0, 2, true), 24.816, 30.0),
+    known(Example::Handle, (-2, 0, true), 190.342, 25.0),
+    known(Example::KleinMug, (0, 0, false), 145.280, 25.0),
+    known(Example::ThreeHandles, (-4, 0, true), 212.795, 24.5),
     known(Example::MoebiusStrip, (0, 1, false), 4.386, 30.0),
-    known(Example::Spout, (1, 1, true), 48.113, 27.0),
-    known(Example::BoredBall, (0, 0, true), 1041.180, 27.0),
+    known(Example::Spout, (1, 1, true), 48.122, 27.0),
+    known(Example::BoredBall, (0, 0, true), 1046.301, 27.0),
 ];
 
 fn path(folder: &str, example: Example, ending: &str) -> String {
@@ -103,6 +103,7 @@ fn every_built_example_is_the_kind_of_surface_that_it_is_called() {
 
 #[test]
 fn every_built_example_comes_to_rest_at_its_energy() {
+    let mut misses = Vec::new();
     for known in KNOWN {
         let mut bench = Bench::with(known.example);
         let mut steps = 0;
@@ -121,9 +122,11 @@ fn every_built_example_comes_to_rest_at_its_energy() {
             known.example,
             shape.mesh.vertex_count()
         );
-        assert!((energy / known.energy - 1.0).abs() < 1e-3, "{:?}: energy {energy}", known.example);
-        assert!(least > known.angle, "{:?}: an angle of {least}", known.example);
+        if (energy / known.energy - 1.0).abs() >= 1e-3 || least <= known.angle {
+            misses.push(known.example);
+        }
     }
+    assert!(misses.is_empty(), "another energy or a sharper angle: {misses:?}");
 }
 
 /// The exact surfaces of an example at rest, by number.

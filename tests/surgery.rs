@@ -158,7 +158,8 @@ fn a_split_doubles_the_curve_and_its_points() {
     let document = bench.document();
     assert_eq!((document.curves.len(), document.points.len()), (3, 12));
     // They are independent: the lid can be lifted off.
-    let lid: Vec<PointId> = document.curves[&CurveId(3)].through.clone();
+    let rim = document.surfaces[&SurfaceId(2)].skeleton.curves[0].curve;
+    let lid: Vec<PointId> = document.curves[&rim].through.clone();
     for point in lid {
         let to = document.points[&point] + DVec3::Z;
         bench.edit(Edit::Move { point, to });

@@ -14,6 +14,7 @@ use ductile_solver::{
 use ductile_spec::{CurveId, Document, Objective, PointId, Region, SurfaceId};
 use glam::DVec3;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// Jacobian of a fit from which on the mesh resolves the shape (recipe, section 7).
 const RESOLVED: f64 = 0.7;
@@ -35,6 +36,11 @@ impl Motion {
             self.by.push((node, to - from));
             self.to.push(to);
         }
+    }
+
+    /// How many nodes are not where they are to be.
+    pub(crate) fn count(&self) -> usize {
+        self.by.len()
     }
 
     /// Whether every control is met.
@@ -237,6 +243,11 @@ impl BoundSurface {
         self.solver.longest_edge() > STRETCHED * spacing || self.solver.jacobians().any(|j| j < RESOLVED)
     }
 
+    /// How many nodes have a ring that the mesh does not resolve.
+    pub(crate) fn unresolved(&self) -> usize {
+        self.solver.jacobians().filter(|jacobian| jacobian.is_nan() || *jacobian < RESOLVED).count()
+    }
+
     /// Writes the positions back into the shape.
     pub(crate) fn write(&self, shape: &mut SurfaceShape) {
         for (v, at) in self.vertices.iter().zip(&self.positions) {
@@ -257,16 +268,21 @@ impl BoundSurface {
     }
 
     /// What the controls ask for that are not yet where the document has them.
-    pub(crate) fn motion(&self, model: &Model, shape: &SurfaceShape) -> Motion {
+    pub(crate) fn motion(
+        &self,
+        document: &Document,
+        curves: &BTreeMap<CurveId, Arc<CurveShape>>,
+        shape: &SurfaceShape,
+    ) -> Motion {
         let mut wanted: BTreeMap<u32, DVec3> = BTreeMap::new();
         for embedded in &shape.embeddings {
-            let Some(curve) = model.curves.get(&embedded.curve) else { continue };
+            let Some(curve) = curves.get(&embedded.curve) else { continue };
             for (v, to) in embedded.vertices.iter().zip(&curve.nodes) {
                 wanted.insert(self.node(*v), *to);
             }
         }
         for pin in &shape.pins {
-            if let Some(to) = model.document.points.get(&pin.point) {
+            if let Some(to) = document.points.get(&pin.point) {
                 wanted.insert(self.node(pin.vertex), *to);
             }
         }

@@ -8,7 +8,7 @@
 
 mod bend;
 mod ends;
-mod neck;
+pub(crate) mod neck;
 mod relief;
 mod skeleton;
 

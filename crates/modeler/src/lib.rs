@@ -13,6 +13,7 @@ mod error;
 mod example;
 mod frame;
 mod grab;
+mod growth;
 mod handle;
 mod history;
 mod maintain;

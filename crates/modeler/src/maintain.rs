@@ -22,7 +22,7 @@ const SHORT: f64 = 0.72;
 /// Fewest edges between two control points of a curve.
 pub(crate) const FEWEST_EDGES: usize = 2;
 /// Part of the way to its ideal place that a vertex is smoothed in one round (recipe: 0.5 to 0.7).
-const SMOOTHING: f64 = 0.6;
+pub(crate) const SMOOTHING: f64 = 0.6;
 /// Rounds that refining a skeleton may take; each can double the number of vertices.
 const REFINEMENTS: usize = 40;
 /// Samples are spread again when their spacing differs by more than this part.
@@ -205,6 +205,21 @@ pub(crate) fn refine(shape: &mut SurfaceShape, coarseness: usize) {
             break;
         }
     }
+    if let Sizing::PerVertex(wanted) = sizing {
+        shape.wanted = wanted;
+    }
+}
+
+/// Improves a mesh that is refined to a multiple of the spacing, once; new vertices lie on the fitted surface.
+pub(crate) fn tend(shape: &mut SurfaceShape, bound: &BoundSurface, coarseness: usize) {
+    let mut sizing = take_sizing(shape, coarseness);
+    let limits = Limits { most_vertices: NODE_BUDGET, ..Limits::default() };
+    let mut places = bound.edge_places();
+    let mut place = |mesh: &Mesh, positions: &[DVec3], e: EdgeId| {
+        let [a, b] = mesh.edge_vertices(e);
+        bound.between(&mut places, a, b).unwrap_or_else(|| remesh::midpoint(mesh, positions, e))
+    };
+    remesh::improve(&mut shape.mesh, &mut shape.positions, &mut sizing, &limits, &mut place);
     if let Sizing::PerVertex(wanted) = sizing {
         shape.wanted = wanted;
     }

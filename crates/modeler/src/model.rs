@@ -2,6 +2,7 @@
 
 use crate::density;
 use crate::error::ModelError;
+use crate::growth::{Beginning, Ground};
 use crate::patch::{self, PatchShape};
 use crate::rehydrate::{build_curve, build_surface, check_extents};
 use crate::shape::{CurveShape, SurfaceShape, edit};
@@ -85,7 +86,7 @@ impl Model {
             model.build_curve(id)?;
         }
         for id in model.document.surfaces.keys().copied().collect::<Vec<_>>() {
-            model.build_surface(id)?;
+            model.raise_surface(id, Beginning::Grown)?;
         }
         let exact = model.document.cages.keys().chain(model.document.fills.keys());
         for id in exact.chain(model.document.meshes.keys()).copied().collect::<Vec<_>>() {
@@ -145,15 +146,21 @@ impl Model {
         Ok(())
     }
 
-    /// Builds the shape of a surface of the document, from its curves as they are now.
+    /// Builds the shape of a new surface of the document, from its curves as they are now: its skin, of which the user
+    /// sees the rest come (thesis section 7.1.3).
     pub(crate) fn build_surface(&mut self, id: SurfaceId) -> Result<(), ModelError> {
+        self.raise_surface(id, Beginning::Skin)
+    }
+
+    fn raise_surface(&mut self, id: SurfaceId, beginning: Beginning) -> Result<(), ModelError> {
         if !self.document.surfaces.contains_key(&id) {
             return Err(ModelError::NoSurface(id));
         }
         let spacing = self.spacing_of(id);
         let is_graded = density::graded(self).contains(&id);
         let revision = self.next_revision();
-        let shape = build_surface(&self.document, &self.curves, id, (spacing, is_graded), revision)?;
+        let ground = Ground { document: &self.document, curves: &self.curves, id };
+        let shape = build_surface(&ground, beginning, (spacing, is_graded), revision)?;
         self.surfaces.insert(id, Arc::new(shape));
         Ok(())
     }

@@ -1,15 +1,16 @@
 //! From a document to shapes: the skeleton is cut along its curves' samples and refined to the spacing
 //! ("rehydrated"). The result is the linear skin over the skeleton, which thesis section 7.1.3 found to be
-//! a good start; the relaxer does the rest.
+//! a good start; what a document says is grown from several such skins ([`crate::growth`]), and the relaxer does the rest.
 
-use crate::bound::{BoundCurve, BoundSurface, Motion};
+use crate::bound::{BoundCurve, Motion};
 use crate::density::{self, Along};
 use crate::error::ModelError;
+use crate::growth::{Beginning, Ground, Laying, Start};
 use crate::maintain::{self, FEWEST_EDGES};
 use crate::model::{Model, NODE_BUDGET};
 use crate::patch::led_nodes;
 use crate::shape::{CurveShape, EmbeddedCurve, Pin, SurfaceShape};
-use ductile_mesh::{Mesh, SourceTag, VertexId, measure, propagate_orientation, remesh};
+use ductile_mesh::{Mesh, SourceTag, VertexId, measure, propagate_orientation};
 use ductile_spec::{CurveId, Document, Embedding, PointId, Skeleton, SkeletonVertex, Surface, SurfaceId};
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -17,9 +18,6 @@ use std::sync::Arc;
 
 /// Steps that a new curve may take to come to rest.
 const CURVE_STEPS: usize = 80;
-/// Cosine of the angle between the normals of neighbours from which on they are a fold (about 170°): a skeleton's own
-/// creases are blunter, and where they are not, nothing is lost.
-const FOLDED: f64 = -0.985;
 /// Below this part of the largest coordinate a shape has no extent.
 const LEAST_EXTENT: f64 = 1e-9;
 
@@ -167,12 +165,12 @@ fn hermite(from: DVec3, to: DVec3, leaving: DVec3, arriving: DVec3, t: f64) -> D
 
 /// Meshes a surface of the document over its curves as they are now.
 pub(crate) fn build_surface(
-    document: &Document,
-    curves: &BTreeMap<CurveId, Arc<CurveShape>>,
-    id: SurfaceId,
+    ground: &Ground<'_>,
+    beginning: Beginning,
     (spacing, is_graded): (f64, bool),
     revision: u64,
 ) -> Result<SurfaceShape, ModelError> {
+    let Ground { document, curves, id } = *ground;
     let surface = document.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?;
     let skeleton = &surface.skeleton;
     let mut mesh = Mesh::from_triangles(skeleton.vertices.len(), &skeleton.triangles)
@@ -193,26 +191,30 @@ pub(crate) fn build_surface(
         let curve = curves.get(&embedding.curve).ok_or(ModelError::NoCurve(embedding.curve))?;
         mark_path(&mut mesh, embedding, curve.closed);
     }
-    remesh::tighten(&mut mesh, &positions);
-    let (embeddings, pins, wanted) = (Vec::new(), Vec::new(), Vec::new());
+    let (embeddings, pins, wanted) = (Vec::new(), pins(skeleton), Vec::new());
     let bare = SurfaceShape { mesh, positions, embeddings, pins, spacing, wanted, age: 0, revision };
     let graded = is_graded.then_some(surface);
-    let mut shape = bare.clone();
-    embed_curves(&mut shape, skeleton, curves, Laying::OnCurves, graded)?;
-    if is_folded(&shape) {
-        shape = bare;
-        embed_curves(&mut shape, skeleton, curves, Laying::OnEdges, graded)?;
+    let skin = |start: Start| {
+        let mut shape = bare.clone();
+        start.turn(&mut shape);
+        embed_curves(&mut shape, ground, start, graded).map(|()| shape)
+    };
+    match beginning {
+        Beginning::Skin => ground.plain(skin),
+        Beginning::Grown => ground.grown(skin),
     }
-    for (index, vertex) in skeleton.vertices.iter().enumerate() {
-        let vertex_id = VertexId::from_index(index);
-        if let SkeletonVertex::Control(point) = vertex
-            && !shape.embeddings.iter().any(|e| e.vertices.contains(&vertex_id))
-        {
-            shape.pins.push(Pin { vertex: vertex_id, point: *point });
+}
+
+/// The control points of a skeleton that lie on none of its curves.
+fn pins(skeleton: &Skeleton) -> Vec<Pin> {
+    let is_on_curve = |index: u32| skeleton.curves.iter().any(|e| e.along.contains(&index));
+    let pin = |(index, vertex): (u32, &SkeletonVertex)| match vertex {
+        SkeletonVertex::Control(point) if !is_on_curve(index) => {
+            Some(Pin { vertex: VertexId::from_index(index as usize), point: *point })
         }
-    }
-    BoundSurface::new(id, &shape)?;
-    Ok(shape)
+        _ => None,
+    };
+    (0_u32..).zip(&skeleton.vertices).filter_map(pin).collect()
 }
 
 fn check_budget(spacing: f64, nodes: f64, limit: usize) -> Result<(), ModelError> {
@@ -227,27 +229,6 @@ fn check_budget(spacing: f64, nodes: f64, limit: usize) -> Result<(), ModelError
     Err(ModelError::TooFine { spacing, nodes: nodes as usize, limit })
 }
 
-/// Where the samples of curves are put while a skeleton is cut along them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Laying {
-    /// Where they belong: the skin is at once right at its curves.
-    OnCurves,
-    /// On the skeleton's edges, from where the relaxer carries them to their curves with all that is around. A
-    /// curve that bulges into its surface, like the inner rim of a ring, would else overtake the vertices before it.
-    OnEdges,
-}
-
-/// Whether two triangles lie on each other, as no skin over a skeleton should.
-fn is_folded(shape: &SurfaceShape) -> bool {
-    let normal = |f| measure::face_normal(&shape.mesh, &shape.positions, f);
-    shape.mesh.edges().any(|e| {
-        let (f, Some(g)) = shape.mesh.edge_faces(e) else { return false };
-        let (one, other) = (normal(f), normal(g));
-        let alike = if shape.mesh.is_wound_alike(e) { one.dot(other) } else { -one.dot(other) };
-        alike < FOLDED * one.length() * other.length()
-    })
-}
-
 /// A control curve on its way into a mesh: the samples that have a vertex already, in order.
 struct Path {
     curve: CurveId,
@@ -258,11 +239,13 @@ struct Path {
 /// with it. All samples at once would make fans of needles that no flip can mend.
 fn embed_curves(
     shape: &mut SurfaceShape,
-    skeleton: &Skeleton,
-    curves: &BTreeMap<CurveId, Arc<CurveShape>>,
-    laying: Laying,
+    ground: &Ground<'_>,
+    start: Start,
     graded: Option<&Surface>,
 ) -> Result<(), ModelError> {
+    let (curves, laying) = (ground.curves, start.laying);
+    let skeleton =
+        &ground.document.surfaces.get(&ground.id).ok_or(ModelError::NoSurface(ground.id))?.skeleton;
     let mut paths = Vec::with_capacity(skeleton.curves.len());
     for embedding in &skeleton.curves {
         let curve = curves.get(&embedding.curve).ok_or(ModelError::NoCurve(embedding.curve))?;
@@ -281,6 +264,7 @@ fn embed_curves(
             density::begin(shape, surface, stride);
         }
         maintain::refine(shape, stride);
+        start.grow(ground, shape, stride);
         stride /= 2;
     }
     Ok(())

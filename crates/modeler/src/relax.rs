@@ -297,7 +297,7 @@ impl Relaxer {
         let (Some(bound), Some(shape)) = (self.surfaces.get_mut(&id), model.surfaces.get(&id)) else {
             return;
         };
-        let mut motion = bound.motion(model, shape);
+        let mut motion = bound.motion(&model.document, &model.curves, shape);
         let before = self.states.get(&id).copied().unwrap_or_default();
         if motion.is_empty() && before.at_rest {
             return;
@@ -323,7 +323,7 @@ impl Relaxer {
                     break;
                 }
             }
-            motion = bound.motion(model, shape);
+            motion = bound.motion(&model.document, &model.curves, shape);
             if let Ok(report) = bound.solver.step(&mut bound.positions, budget) {
                 self.rescues = self.rescues.saturating_add(u32::from(report.damped));
                 self.is_stinted |= is_stinted(budget, report.sufficient);

@@ -79,6 +79,7 @@ pub struct SurfaceSolver {
     /// Factor on the mass damping, above 1 after failed searches.
     damping: f64,
     quiet_steps: u32,
+    still_steps: u32,
     /// What the fits at the end of a step should hold.
     next_wanted: Wanted,
 }
@@ -111,6 +112,7 @@ impl SurfaceSolver {
             goals,
             damping: 1.0,
             quiet_steps: 0,
+            still_steps: 0,
             next_wanted: Wanted::Gradient,
             unknowns,
             settings,

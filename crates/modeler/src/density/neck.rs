@@ -12,9 +12,12 @@
 use super::bend;
 use crate::bound::BoundSurface;
 use crate::model::{Model, NODE_BUDGET};
-use crate::shape::SurfaceShape;
+use crate::shape::{CurveShape, SurfaceShape};
 use core::f64::consts::{SQRT_2, TAU};
 use ductile_mesh::VertexId;
+use ductile_spec::CurveId;
+use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// Edges round a tube from which on all is well, up to which it gets [`ROUND`], and those that it gets.
 const ENOUGH: f64 = 9.0;
@@ -44,6 +47,16 @@ fn part(turn: f64) -> f64 {
     } else {
         1.0 + (fine(few) - 1.0) * (turn - enough) / (few - enough)
     }
+}
+
+/// Whether a curve inside a surface runs round something so thin, that fewer edges would go round than are enough.
+pub(crate) fn is_held(curves: &BTreeMap<CurveId, Arc<CurveShape>>, shape: &SurfaceShape) -> bool {
+    shape.embeddings.iter().any(|embedded| {
+        let Some(curve) = curves.get(&embedded.curve) else { return false };
+        let turn = |sample: usize| curve.second_derivative(sample).length() * shape.spacing;
+        let inner = embedded.vertices.iter().enumerate().filter(|(_, v)| !shape.mesh.is_boundary_vertex(**v));
+        inner.into_iter().any(|(sample, _)| turn(sample) > TAU / ENOUGH)
+    })
 }
 
 /// The part of `field`, what is wanted for other reasons, that bends leave of it at each vertex slot; `None` where they leave all

@@ -18,6 +18,12 @@ const REST_DECREASE: f64 = 1e-6;
 const REST_VARIATION: f64 = 1e-4;
 /// Steps of small predicted decrease that make rest.
 const REST_STEPS: u32 = 3;
+/// Move below which nothing moves any more, in units of the local mean edge, and the steps of such moves that make rest: an
+/// energy can have a kink at its least place, where every direction promises a decrease that no length of step keeps.
+const STILL_MOVE: f64 = 1e-6;
+const STILL_STEPS: u32 = 20;
+/// Damping up to which a short move is not short because it is damped.
+const STILL_DAMPING: f64 = 100.0;
 /// Residual above which a direction says nothing about rest: the budget was too small.
 const REST_RESIDUAL: f64 = 0.3;
 /// Decrease, relative to the energy, that rounding could fake: nothing is left to gain.
@@ -30,6 +36,17 @@ const DAMPING_MAX: f64 = 1e8;
 impl SurfaceSolver {
     /// Line search along the direction, acceptance, rest.
     pub(super) fn advance(&mut self, positions: &mut [DVec3], report: &mut StepReport) {
+        let is_hardly_damped = self.damping <= STILL_DAMPING;
+        self.go(positions, report);
+        let is_still = is_hardly_damped
+            && report.energy.is_finite()
+            && report.residual <= REST_RESIDUAL
+            && report.largest_relative_move < STILL_MOVE;
+        self.still_steps = if is_still { self.still_steps + 1 } else { 0 };
+        report.at_rest |= self.still_steps >= STILL_STEPS;
+    }
+
+    fn go(&mut self, positions: &mut [DVec3], report: &mut StepReport) {
         let slope = -2.0 * cg::dot(&self.rhs, &self.alpha);
         let energy = self.fits.energy;
         let is_converged = report.residual <= REST_RESIDUAL;
@@ -169,6 +186,27 @@ mod tests {
             assert!(!report.damped);
             assert_eq!(report.at_rest, step == 3, "step {step}");
         }
+    }
+
+    #[test]
+    fn where_twenty_steps_move_nothing_though_hardly_damped_is_rest() {
+        let (mut solver, mut positions) = ready();
+        let before = positions.clone();
+        solver.rhs.iter_mut().for_each(|value| *value = -*value);
+        solver.alpha = solver.rhs.clone();
+        for step in 1..=20 {
+            solver.damping = 2.0;
+            let mut report = report(&solver, 0.0, 5);
+            solver.advance(&mut positions, &mut report);
+            assert!(report.damped);
+            assert_eq!(report.at_rest, step == 20, "step {step}");
+        }
+        assert_eq!(positions, before);
+        // One that moves, or is short because it is damped, begins the count anew.
+        solver.damping = 1e4;
+        let mut report = report(&solver, 0.0, 5);
+        solver.advance(&mut positions, &mut report);
+        assert!(!report.at_rest && solver.still_steps == 0);
     }
 
     #[test]
