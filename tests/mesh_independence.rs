@@ -77,10 +77,9 @@ impl Figures {
         figures
     }
 
-    /// Order of the deviation in the mean spacing, from twice the spacing to the spacing: on coarser meshes what is left is not yet
-    /// what counts in the limit.
+    /// Order of the deviation in the mean spacing, from the coarsest to the finest mesh.
     fn order(&self, of: impl Fn(&Deviation) -> f64) -> f64 {
-        let [_, (few, coarse), (many, fine)] = &self.meshes;
+        let [(few, coarse), _, (many, fine)] = &self.meshes;
         2.0 * libm::log(of(coarse) / of(fine)) / libm::log(*many as f64 / *few as f64)
     }
 }
