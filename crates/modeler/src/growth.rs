@@ -13,7 +13,7 @@ use crate::maintain::{self, SMOOTHING};
 use crate::region::{self, Choice};
 use crate::shape::{CurveShape, GROWN, SurfaceShape};
 use ductile_mesh::{Mesh, measure, quality, remesh};
-use ductile_solver::Budget;
+use ductile_solver::{Budget, SolverError};
 use ductile_spec::{CurveId, Document, Objective, SurfaceId};
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -65,7 +65,7 @@ pub(crate) enum Laying {
 pub(crate) struct Start {
     /// Where the curves' samples are put.
     pub(crate) laying: Laying,
-    /// Whether edges of the skeleton are flipped that others cross at right angles and shorter.
+    /// Whether edges of the skeleton are flipped while that makes them shorter.
     is_shortened: bool,
     /// Rounds of relaxation at twice the spacing.
     coarse: usize,
@@ -163,7 +163,10 @@ impl Ground<'_> {
         let mut bound = BoundSurface::new(self.id, &plain)?;
         bound.fit();
         // Edges round a neck are made shorter by the relaxer, before the plate draws it together.
-        if bound.unresolved() == 0 || (!self.is_fair() && neck::is_held(self.curves, &plain)) {
+        if !self.is_fair() && neck::is_held(self.curves, &plain) {
+            return self.plain(skin);
+        }
+        if bound.unresolved() == 0 {
             return Ok(plain);
         }
         let mut best: Option<(Score, SurfaceShape)> = None;
@@ -224,47 +227,51 @@ impl Ground<'_> {
         stride: usize,
         (count, objective): (usize, Objective),
     ) -> Result<BoundSurface, ModelError> {
-        let mut bound = BoundSurface::new(self.id, shape)?;
+        let mut bound = self.bind(shape, objective)?;
         let least = if self.is_fair() && objective == Objective::ThinPlate { count.min(1) } else { count };
         for round in 0..2 * count {
             if round >= least && bound.unresolved() == 0 {
                 break;
             }
-            bound = self.round(shape, stride, objective)?;
+            self.round(shape, stride, &mut bound)?;
+            bound = self.bind(shape, objective)?;
+            bound.fit();
         }
         Ok(bound)
     }
 
-    /// Some steps towards the least energy and an improvement of the mesh; returns the solver for what came of it.
+    fn bind(&self, shape: &SurfaceShape, objective: Objective) -> Result<BoundSurface, ModelError> {
+        let mut bound = BoundSurface::new(self.id, shape)?;
+        let choice = Choice { of_surface: objective, ..Choice::default() };
+        let taken = bound.solver.set_objectives(region::objectives(shape, &choice));
+        taken.map(|()| bound).map_err(|reason| self.unsolvable(reason))
+    }
+
+    /// Some steps towards the least energy and an improvement of the mesh, for which another solver is needed then.
     fn round(
         &self,
         shape: &mut SurfaceShape,
         stride: usize,
-        objective: Objective,
-    ) -> Result<BoundSurface, ModelError> {
-        let fail = |reason| ModelError::Unsolvable { what: self.id.to_string(), reason };
-        let choice = Choice { of_surface: objective, ..Choice::default() };
-        let bind = |shape: &SurfaceShape| -> Result<BoundSurface, ModelError> {
-            let mut bound = BoundSurface::new(self.id, shape)?;
-            bound.solver.set_objectives(region::objectives(shape, &choice)).map_err(fail)?;
-            Ok(bound)
-        };
-        let mut bound = bind(shape)?;
+        bound: &mut BoundSurface,
+    ) -> Result<(), ModelError> {
         for _ in 0..STEPS {
             // A coarse mesh follows only some samples of its curves, and those lie on them.
             if stride == 1 {
                 let motion = bound.motion(self.document, self.curves, shape);
-                bound.carry(&motion).map_err(fail)?;
+                bound.carry(&motion).map_err(|reason| self.unsolvable(reason))?;
             }
-            bound.solver.step(&mut bound.positions, Budget { iterations: ITERATIONS }).map_err(fail)?;
+            let step = bound.solver.step(&mut bound.positions, Budget { iterations: ITERATIONS });
+            step.map_err(|reason| self.unsolvable(reason))?;
         }
         bound.smooth(SMOOTHING);
         bound.fit();
         bound.write(shape);
-        maintain::tend(shape, &bound, stride);
-        let mut bound = bind(shape)?;
-        bound.fit();
-        Ok(bound)
+        maintain::tend(shape, bound, stride);
+        Ok(())
+    }
+
+    fn unsolvable(&self, reason: SolverError) -> ModelError {
+        ModelError::Unsolvable { what: self.id.to_string(), reason }
     }
 }
 

@@ -132,11 +132,7 @@ pub(crate) fn surface(
     if upkeep.revision != shape.revision {
         *upkeep = Upkeep { revision: shape.revision, ledger: Ledger::default() };
     }
-    let mut places = bound.edge_places();
-    let mut place = |mesh: &Mesh, positions: &[DVec3], e: EdgeId| {
-        let [a, b] = mesh.edge_vertices(e);
-        bound.between(&mut places, a, b).unwrap_or_else(|| remesh::midpoint(mesh, positions, e))
-    };
+    let mut place = on_fit(bound);
     let mut sizing = take_sizing(shape, 1);
     let limits = Limits { most_vertices: NODE_BUDGET, may_collapse, ..Limits::default() };
     let (mesh, positions) = (&mut shape.mesh, &mut shape.positions);
@@ -153,6 +149,15 @@ pub(crate) fn surface(
         edit(shape).revision = upkeep.revision;
     }
     true
+}
+
+/// The place of a new vertex in the middle of an edge: on the fitted surface, where that is known.
+fn on_fit(bound: &BoundSurface) -> impl FnMut(&Mesh, &[DVec3], EdgeId) -> DVec3 {
+    let mut places = bound.edge_places();
+    move |mesh, positions, e| {
+        let [a, b] = mesh.edge_vertices(e);
+        bound.between(&mut places, a, b).unwrap_or_else(|| remesh::midpoint(mesh, positions, e))
+    }
 }
 
 /// Moves vertices towards even spacing within the surface; returns whether any moved noticeably.
@@ -214,11 +219,7 @@ pub(crate) fn refine(shape: &mut SurfaceShape, coarseness: usize) {
 pub(crate) fn tend(shape: &mut SurfaceShape, bound: &BoundSurface, coarseness: usize) {
     let mut sizing = take_sizing(shape, coarseness);
     let limits = Limits { most_vertices: NODE_BUDGET, ..Limits::default() };
-    let mut places = bound.edge_places();
-    let mut place = |mesh: &Mesh, positions: &[DVec3], e: EdgeId| {
-        let [a, b] = mesh.edge_vertices(e);
-        bound.between(&mut places, a, b).unwrap_or_else(|| remesh::midpoint(mesh, positions, e))
-    };
+    let mut place = on_fit(bound);
     remesh::improve(&mut shape.mesh, &mut shape.positions, &mut sizing, &limits, &mut place);
     if let Sizing::PerVertex(wanted) = sizing {
         shape.wanted = wanted;

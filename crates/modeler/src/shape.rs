@@ -36,7 +36,8 @@ pub struct SurfaceShape {
     pub spacing: f64,
     /// Target edge length by vertex slot, where it is not the same everywhere; else empty.
     pub wanted: Vec<f64>,
-    /// Steps that it has taken since it was built from a skeleton, counted up to four: then it has lost its corners.
+    /// Steps that it has taken since it was built from a skeleton, counted up to four: then it has lost its corners. What was
+    /// grown out of sight until its mesh resolves it has lost them, too.
     pub age: u8,
     /// Names this connectivity.
     pub revision: u64,

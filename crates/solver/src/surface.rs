@@ -164,7 +164,7 @@ impl SurfaceSolver {
             self.goals.radius = radius;
             self.fits.forget();
             self.trial.forget();
-            self.quiet_steps = 0;
+            self.stir();
             self.objectives = objectives;
         } else if objectives != self.objectives {
             self.wake();
@@ -216,7 +216,7 @@ impl SurfaceSolver {
             }
         }
         self.served(outcome.iterations);
-        self.quiet_steps = 0;
+        self.stir();
         Ok(Predicted { fraction, strain, iterations: outcome.iterations, residual: outcome.residual })
     }
 
@@ -372,7 +372,7 @@ impl SurfaceSolver {
         assert_eq!(positions.len(), self.rings.len(), "one position per node");
         let report = smooth::smooth(&self.rings, positions, movable, fraction, aim, lengths);
         if report.moved > 0 {
-            self.quiet_steps = 0;
+            self.stir();
         }
         report
     }

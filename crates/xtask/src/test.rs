@@ -69,7 +69,11 @@ pub(crate) fn suites(chosen: &[Suite]) -> Tally {
 }
 
 fn native() -> Tally {
-    counted("native tests", || Ok(Run::cargo().args(["test", "--workspace", "--locked", "--no-fail-fast"])))
+    counted(
+        "native tests",
+        |_| (),
+        || Ok(Run::cargo().args(["test", "--workspace", "--locked", "--no-fail-fast"])),
+    )
 }
 
 fn page() -> Tally {
@@ -77,32 +81,41 @@ fn page() -> Tally {
     if let Err(message) = web::build(&page) {
         return broken("the page cannot be built", &message);
     }
-    counted("end-to-end tests", || {
-        let mut files: Vec<String> = fs::read_dir(place::browser_tests())
-            .map_err(|error| error.to_string())?
-            .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
-            .filter(|name| name.ends_with(".test.mjs"))
-            .collect();
-        files.sort();
-        let browser = tools::chromium().ok_or("no Chromium found")?;
-        // One file at a time: the software rasteriser takes a whole core and more.
-        Ok(Run::new("node")
-            .args(["--test", "--test-reporter=spec", "--test-concurrency=1", PAGE_TEST_LIMIT])
-            .args(files)
-            .within(&place::browser_tests())
-            .env("CHROME", browser)
-            .env("DUCTILE_PAGE", page))
-    })
+    counted(
+        "end-to-end tests",
+        |_| (),
+        || {
+            let mut files: Vec<String> = fs::read_dir(place::browser_tests())
+                .map_err(|error| error.to_string())?
+                .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+                .filter(|name| name.ends_with(".test.mjs"))
+                .collect();
+            files.sort();
+            let browser = tools::chromium().ok_or("no Chromium found")?;
+            // One file at a time: the software rasteriser takes a whole core and more.
+            Ok(Run::new("node")
+                .args(["--test", "--test-reporter=spec", "--test-concurrency=1", PAGE_TEST_LIMIT])
+                .args(files)
+                .within(&place::browser_tests())
+                .env("CHROME", browser)
+                .env("DUCTILE_PAGE", page))
+        },
+    )
 }
 
 /// Run a test runner, show what it says, and count. One that fails without naming a failed test counts as one failure.
-fn counted(title: &str, prepare: impl FnOnce() -> Result<Run, String>) -> Tally {
+pub(crate) fn counted(
+    title: &str,
+    mut listen: impl FnMut(&str),
+    prepare: impl FnOnce() -> Result<Run, String>,
+) -> Tally {
     step(title, || {
         let mut tally = Tally::default();
         let outcome = prepare().and_then(|run| {
             run.lines(|line| {
                 println!("{line}");
                 tally += Tally::of_line(line);
+                listen(line);
             })
         });
         match outcome {

@@ -7,17 +7,15 @@
 
 use crate::place;
 use crate::project::{self, Package};
-use crate::shell::{Run, step};
+use crate::shell::Run;
 use crate::sizes;
 use crate::tally::Tally;
-use crate::test::broken;
+use crate::test::{broken, counted};
 use crate::tools;
-use std::{fs, mem};
+use std::fs;
 
 /// What a member depends on when its tests run in the browser.
 const RUNNER: &str = "wasm-bindgen-test";
-/// What runs such a program.
-const RUNNER_PROGRAM: &str = "wasm-bindgen-test-runner";
 /// The `use` of such a module of tests, and the mark of a file of tests that stays native.
 const HEARD: &str = "use wasm_bindgen_test::wasm_bindgen_test as test;";
 const NATIVE: &str = "#![cfg(not(target_arch = \"wasm32\"))]";
@@ -58,65 +56,35 @@ fn runs_here(package: &Package) -> bool {
 
 fn run_in((place, variable): (&str, &str), packages: &[Package]) -> Tally {
     let title = format!("tests in {place}");
-    // Not the examples in the documentation: they run natively.
-    let how = ["test", "--target", "wasm32-unknown-unknown", "--locked", "--no-fail-fast", "--tests"];
-    let all = Run::cargo()
-        .args(how)
-        .args(packages.iter().flat_map(|package| ["-p", package.name.as_str()]))
-        .env("CARGO_TERM_COLOR", "never");
-    let (mut tally, mut roll) = hear(&title, all, variable);
-    // A browser that is lost says nothing of the tests, and on a busy machine one is lost now and then.
-    for program in mem::take(&mut roll.silent_programs) {
-        let again = format!("{title} once more, for the browser was lost: {program}");
-        let file = program.split_once('(').map_or(program.as_str(), |(_, file)| file.trim_end_matches(')'));
-        let (second, mut heard) = hear(&again, Run::new(RUNNER_PROGRAM).args([file]), variable);
-        heard.expect_result_of(&program, second);
-        tally += second;
-        roll.complaints.append(&mut heard.complaints);
-    }
-    for complaint in roll.complaints {
+    let mut roll = Roll::default();
+    let mut tally = counted(
+        &title,
+        |line| roll.hear(line),
+        || {
+            let (settings, driver) = tools::webdriver()?;
+            // Not the examples in the documentation: they run natively.
+            let how = ["test", "--target", "wasm32-unknown-unknown", "--locked", "--no-fail-fast", "--tests"];
+            Ok(Run::cargo()
+                .args(how)
+                .args(packages.iter().flat_map(|package| ["-p", package.name.as_str()]))
+                .env("CARGO_TERM_COLOR", "never")
+                .env("CHROMEDRIVER", driver)
+                .env("WASM_BINDGEN_TEST_WEBDRIVER_JSON", settings)
+                .env("WASM_BINDGEN_TEST_TIMEOUT", PROGRAM_LIMIT)
+                .env(variable, "1"))
+        },
+    );
+    for complaint in roll.close() {
         tally += broken(&title, &complaint);
     }
     tally
-}
-
-/// Run tests in a browser, show what they say, and count. That a run fails is a failure of its own unless tests failed or
-/// programs fell silent, which count by themselves.
-fn hear(title: &str, run: Run, variable: &str) -> (Tally, Roll) {
-    step(title, || {
-        let (mut tally, mut roll) = (Tally::default(), Roll::default());
-        let outcome = tools::webdriver().and_then(|(settings, driver)| {
-            run.env("CHROMEDRIVER", driver)
-                .env("WASM_BINDGEN_TEST_WEBDRIVER_JSON", settings)
-                .env("WASM_BINDGEN_TEST_TIMEOUT", PROGRAM_LIMIT)
-                .env(variable, "1")
-                .lines(|line| {
-                    println!("{line}");
-                    tally += Tally::of_line(line);
-                    roll.hear(line);
-                })
-        });
-        roll.miss();
-        match outcome {
-            Err(message) if tally.failed == 0 && roll.silent_programs.is_empty() => {
-                tally += broken(title, &message);
-            }
-            Ok(()) if tally.passed == 0 && roll.silent_programs.is_empty() => {
-                tally += broken(title, "no test ran");
-            }
-            _ => (),
-        }
-        (tally, roll)
-    })
 }
 
 /// Compares the programs that cargo announces with the results that are heard.
 #[derive(Debug, Default)]
 struct Roll {
     /// The program that runs now, as long as no result was heard.
-    running: Option<String>,
-    /// Those that ended without a result.
-    silent_programs: Vec<String>,
+    silent: Option<String>,
     complaints: Vec<String>,
 }
 
@@ -125,10 +93,10 @@ impl Roll {
         let line = line.trim();
         if let Some(program) = line.strip_prefix("Running ").filter(|rest| rest.ends_with(".wasm)")) {
             self.miss();
-            self.running = Some(program.to_owned());
+            self.silent = Some(program.to_owned());
         } else if line.starts_with("test result:") {
             let heard = Tally::of_line(line);
-            let Some(program) = self.running.take() else {
+            let Some(program) = self.silent.take() else {
                 return self.complaints.push(format!("a result of no announced program: {line}"));
             };
             if heard.passed + heard.failed == 0 {
@@ -138,15 +106,13 @@ impl Roll {
     }
 
     fn miss(&mut self) {
-        self.silent_programs.extend(self.running.take());
+        self.complaints.extend(self.silent.take().map(|program| format!("no result of {program}")));
     }
 
-    /// What is said of a program that ran by itself, without being announced.
-    fn expect_result_of(&mut self, program: &str, heard: Tally) {
-        self.complaints.clear();
-        if heard.passed + heard.failed == 0 {
-            self.complaints.push(format!("no result of {program}"));
-        }
+    /// What was missed.
+    fn close(mut self) -> Vec<String> {
+        self.miss();
+        self.complaints
     }
 }
 
@@ -170,14 +136,11 @@ fn is_deaf(text: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::{Roll, is_deaf};
-    use crate::tally::Tally;
 
-    /// The programs that ended without a result, and the complaints.
-    fn heard(output: &str) -> (Vec<String>, Vec<String>) {
+    fn complaints(output: &str) -> Vec<String> {
         let mut roll = Roll::default();
         output.lines().for_each(|line| roll.hear(line));
-        roll.miss();
-        (roll.silent_programs, roll.complaints)
+        roll.close()
     }
 
     #[test]
@@ -187,24 +150,14 @@ mod tests {
             test result: ok. 3 passed; 0 failed; 0 ignored; 0 filtered out\n\
             \x20    Running tests/bits.rs (target/debug/deps/bits-1.wasm)\n\
             test result: FAILED. 0 passed; 1 failed; 0 ignored; 0 filtered out\n";
-        assert_eq!(heard(good), (vec![], vec![]));
+        assert!(complaints(good).is_empty());
         let empty = "     Running tests/bits.rs (target/debug/deps/bits-1.wasm)\nno tests to run!\n";
-        assert_eq!(heard(empty), (vec!["tests/bits.rs (target/debug/deps/bits-1.wasm)".to_owned()], vec![]));
-        assert_eq!(heard(&format!("{empty}{good}{empty}")).0.len(), 2);
+        assert_eq!(complaints(empty), ["no result of tests/bits.rs (target/debug/deps/bits-1.wasm)"]);
+        assert_eq!(complaints(&format!("{empty}{good}{empty}")).len(), 2);
         let ignored = "     Running tests/bits.rs (target/debug/deps/bits-1.wasm)\n\
             test result: ok. 0 passed; 0 failed; 1 ignored; 0 filtered out\n";
-        assert_eq!(heard(ignored).1, ["no test ran in tests/bits.rs (target/debug/deps/bits-1.wasm)"]);
-        assert_eq!(heard("test result: ok. 3 passed; 0 failed\n").1.len(), 1);
-    }
-
-    #[test]
-    fn a_program_that_says_nothing_the_second_time_either_is_a_failure() {
-        let mut roll = Roll::default();
-        roll.hear("test result: ok. 3 passed; 0 failed");
-        roll.expect_result_of("bits", Tally { passed: 3, failed: 0 });
-        assert!(roll.complaints.is_empty());
-        roll.expect_result_of("bits", Tally::default());
-        assert_eq!(roll.complaints, ["no result of bits"]);
+        assert_eq!(complaints(ignored), ["no test ran in tests/bits.rs (target/debug/deps/bits-1.wasm)"]);
+        assert_eq!(complaints("test result: ok. 3 passed; 0 failed\n").len(), 1);
     }
 
     #[test]

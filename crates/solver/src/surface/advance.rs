@@ -37,7 +37,7 @@ impl SurfaceSolver {
     /// Line search along the direction, acceptance, rest.
     pub(super) fn advance(&mut self, positions: &mut [DVec3], report: &mut StepReport) {
         let is_hardly_damped = self.damping <= STILL_DAMPING;
-        self.go(positions, report);
+        self.search_and_accept(positions, report);
         let is_still = is_hardly_damped
             && report.energy.is_finite()
             && report.residual <= REST_RESIDUAL
@@ -46,7 +46,13 @@ impl SurfaceSolver {
         report.at_rest |= self.still_steps >= STILL_STEPS;
     }
 
-    fn go(&mut self, positions: &mut [DVec3], report: &mut StepReport) {
+    /// What was on its way to rest has to show it anew: the shape or what it minimises was changed.
+    pub(super) fn stir(&mut self) {
+        self.quiet_steps = 0;
+        self.still_steps = 0;
+    }
+
+    fn search_and_accept(&mut self, positions: &mut [DVec3], report: &mut StepReport) {
         let slope = -2.0 * cg::dot(&self.rhs, &self.alpha);
         let energy = self.fits.energy;
         let is_converged = report.residual <= REST_RESIDUAL;
@@ -207,6 +213,12 @@ mod tests {
         let mut report = report(&solver, 0.0, 5);
         solver.advance(&mut positions, &mut report);
         assert!(!report.at_rest && solver.still_steps == 0);
+        // So does whatever stirs the shape: one failed step after it is no rest.
+        solver.still_steps = 19;
+        solver.damping = 2.0;
+        let held = solver.fixed().iter().position(|fixed| *fixed).unwrap();
+        solver.predict(&mut positions, &[(u32::try_from(held).unwrap(), DVec3::Z * 1e-3)]).unwrap();
+        assert_eq!(solver.still_steps, 0);
     }
 
     #[test]

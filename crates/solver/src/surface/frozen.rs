@@ -158,7 +158,7 @@ impl SurfaceSolver {
             positions[node as usize] += self.normals[node as usize] * (scale * alpha);
         }
         self.served(outcome.iterations);
-        self.quiet_steps = 0;
+        self.stir();
         Ok(longest * scale)
     }
 }

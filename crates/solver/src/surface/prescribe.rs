@@ -28,7 +28,7 @@ impl SurfaceSolver {
                 let is_new = old.retarget(new);
                 if is_new {
                     self.wake();
-                    self.quiet_steps = 0;
+                    self.stir();
                 }
                 Ok(is_new)
             }
@@ -63,7 +63,7 @@ impl SurfaceSolver {
         self.fits = Fits::new(&self.rings, &self.goals);
         self.trial = Fits::new(&self.rings, &self.goals);
         self.damping = 1.0;
-        self.quiet_steps = 0;
+        self.stir();
     }
 
     /// Lets planes begin where the surface has them.
@@ -87,7 +87,7 @@ impl SurfaceSolver {
             self.wake();
             self.fits.forget();
             self.trial.forget();
-            self.quiet_steps = 0;
+            self.stir();
         }
         has_turned
     }

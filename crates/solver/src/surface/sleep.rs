@@ -145,7 +145,7 @@ impl SurfaceSolver {
             fits.forget();
         }
         self.predictor.reset();
-        self.quiet_steps = 0;
+        self.stir();
         true
     }
 
