@@ -15,12 +15,13 @@ mod skeleton;
 pub(crate) use skeleton::of_stretches;
 
 use crate::bound::BoundSurface;
+use crate::growth::Ground;
 use crate::model::Model;
 use crate::region;
 use crate::shape::{CurveShape, SurfaceShape, edit};
 use ductile_mesh::remesh::Sizing;
 use ductile_mesh::{VertexId, regions};
-use ductile_spec::{CurveId, Density, Objective, Surface, SurfaceId};
+use ductile_spec::{CurveId, Density, Document, Objective, Surface, SurfaceId};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Wanted lengths grow by at most this part of the way along edges.
@@ -82,7 +83,7 @@ pub(crate) fn update(
         }
         field.iter_mut().zip(around_ends).for_each(|(h, end)| *h = h.min(end));
         if density == Density::Uniform
-            && is_plate(model, *id, surface)
+            && is_plate(&model.document, *id, surface)
             && let Some(parts) = neck::parts(model, &field, shape, (bound, is_steady(*id)))
         {
             field.iter_mut().zip(parts).for_each(|(h, part)| *h *= part);
@@ -117,21 +118,35 @@ pub(crate) fn update(
 /// Whether the curves inside of surfaces ask for edges so much shorter than those that there are that the next batch would come too late.
 pub(crate) fn is_overdue(model: &Model, bound: &BTreeMap<SurfaceId, BoundSurface>) -> bool {
     let has_own = |id: SurfaceId, surface: &Surface| {
-        model.document.density_of_surface(id) == Density::Uniform && is_plate(model, id, surface)
+        model.document.density_of_surface(id) == Density::Uniform && is_plate(&model.document, id, surface)
     };
     model.surfaces.iter().any(|(id, shape)| {
         let surface = model.document.surfaces.get(id).filter(|surface| has_own(*id, surface));
         let bound = bound.get(id).filter(|bound| bound.revision == shape.revision);
-        surface.and(bound).is_some_and(|bound| neck::is_overdue(model, shape, bound))
+        surface.and(bound).is_some_and(|bound| neck::is_overdue(&model.curves, shape, bound))
     })
+}
+
+/// Brings the wanted lengths of a surface that is not yet in a model up to the necks that its curves hold. Its solver is fitted.
+pub(crate) fn begin_necks(ground: &Ground<'_>, shape: &mut SurfaceShape, bound: &BoundSurface) {
+    let (document, id) = (ground.document, ground.id);
+    let has_own = |surface: &&Surface| {
+        document.density_of_surface(id) == Density::Uniform && is_plate(document, id, surface)
+    };
+    let Some(surface) = document.surfaces.get(&id).filter(has_own) else { return };
+    let mut field = own(shape, surface, 1.0);
+    let Some(parts) = neck::held(ground.curves, &field, shape, bound) else { return };
+    field.iter_mut().zip(parts).for_each(|(h, part)| *h *= part);
+    spread(shape, &mut field);
+    keep(&mut shape.wanted, field);
 }
 
 /// Whether it is bending alone that a surface minimises, everywhere. A film bends without bound at a point that holds it, however fine
 /// its mesh, and what is `fair` does not draw together.
-fn is_plate(model: &Model, id: SurfaceId, surface: &Surface) -> bool {
+fn is_plate(document: &Document, id: SurfaceId, surface: &Surface) -> bool {
     let is_bending = |objective| matches!(objective, Objective::ThinPlate | Objective::Neutral);
     let mut objectives = surface.regions.iter().filter_map(|region| region.objective);
-    is_bending(model.document.objective_of_surface(id)) && objectives.all(is_bending)
+    is_bending(document.objective_of_surface(id)) && objectives.all(is_bending)
 }
 
 /// What a surface wants before it is bound: its own lengths and those of the edges of its curves, `coarseness` times as long

@@ -7,7 +7,7 @@
 //! tried, and the one is kept whose mesh resolves its shape best and, among equals, whose energy is least.
 
 use crate::bound::BoundSurface;
-use crate::density::neck;
+use crate::density;
 use crate::error::ModelError;
 use crate::maintain::{self, SMOOTHING};
 use crate::region::{self, Choice};
@@ -162,10 +162,6 @@ impl Ground<'_> {
         let plain = skin(start(Laying::OnCurves, false, 0))?;
         let mut bound = BoundSurface::new(self.id, &plain)?;
         bound.fit();
-        // Edges round a neck are made shorter by the relaxer, before the plate draws it together.
-        if !self.is_fair() && neck::is_held(self.curves, &plain) {
-            return self.plain(skin);
-        }
         if bound.unresolved() == 0 {
             return Ok(plain);
         }
@@ -228,10 +224,14 @@ impl Ground<'_> {
         (count, objective): (usize, Objective),
     ) -> Result<BoundSurface, ModelError> {
         let mut bound = self.bind(shape, objective)?;
+        bound.fit();
         let least = if self.is_fair() && objective == Objective::ThinPlate { count.min(1) } else { count };
         for round in 0..2 * count {
             if round >= least && bound.unresolved() == 0 {
                 break;
+            }
+            if stride == 1 {
+                density::begin_necks(self, shape, &bound);
             }
             self.round(shape, stride, &mut bound)?;
             bound = self.bind(shape, objective)?;

@@ -19,9 +19,12 @@ use ductile_spec::CurveId;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+/// The curves of a model.
+type Curves = BTreeMap<CurveId, Arc<CurveShape>>;
+
 /// Edges round a tube from which on all is well, up to which it gets [`ROUND`], and those that it gets.
 const ENOUGH: f64 = 9.0;
-const FEW: f64 = 7.5;
+const FEW: f64 = 8.0;
 const ROUND: f64 = 20.0;
 /// Part by which the curvature found may change before a length is given up.
 const PLAY: f64 = 1.35;
@@ -49,16 +52,6 @@ fn part(turn: f64) -> f64 {
     }
 }
 
-/// Whether a curve inside a surface runs round something so thin, that fewer edges would go round than are enough.
-pub(crate) fn is_held(curves: &BTreeMap<CurveId, Arc<CurveShape>>, shape: &SurfaceShape) -> bool {
-    shape.embeddings.iter().any(|embedded| {
-        let Some(curve) = curves.get(&embedded.curve) else { return false };
-        let turn = |sample: usize| curve.second_derivative(sample).length() * shape.spacing;
-        let inner = embedded.vertices.iter().enumerate().filter(|(_, v)| !shape.mesh.is_boundary_vertex(**v));
-        inner.into_iter().any(|(sample, _)| turn(sample) > TAU / ENOUGH)
-    })
-}
-
 /// The part of `field`, what is wanted for other reasons, that bends leave of it at each vertex slot; `None` where they leave all
 /// of it. While the shape is on its way (`is_steady` is not yet true) nothing new is asked for.
 pub(super) fn parts(
@@ -71,9 +64,8 @@ pub(super) fn parts(
     let mut parts = vec![1.0; field.len()];
     shape.mesh.vertices().for_each(|v| parts[v.index()] = was(v.index()));
     if let Some(bound) = bound {
-        let mut held = vec![1.0; field.len()];
-        of_curves(&mut held, model, field, shape, bound);
-        let is_held = held.iter().any(|part| *part < NOTICED);
+        let held = held(&model.curves, field, shape, bound);
+        let is_held = held.is_some();
         // A point that holds a plate bends it without bound.
         let is_pin = |v: VertexId| shape.pins.iter().any(|pin| pin.vertex == v);
         let seen = bound.solver.curvatures().map(|curvature| curvature.largest()).map(|seen| seen * seen);
@@ -84,7 +76,7 @@ pub(super) fn parts(
             let turn = squared.sqrt() * field[v];
             parts[v] = parts[v].clamp(part(PLAY * turn), if may_shorten { part(turn) } else { 1.0 });
         }
-        parts.iter_mut().zip(held).for_each(|(part, held)| *part = part.min(held));
+        parts.iter_mut().zip(held.iter().flatten()).for_each(|(part, held)| *part = part.min(*held));
         afford(&mut parts, field, bound, most);
     }
     let least = parts.iter().copied().fold(1.0, f64::min);
@@ -113,18 +105,25 @@ fn afford(parts: &mut [f64], field: &[f64], bound: &BoundSurface, most: f64) {
     parts.iter_mut().for_each(|part| *part = part.max(floor.min(1.0)));
 }
 
-/// What the curves inside a surface leave by themselves. They are at rest long before the surface is, and a waist that is held by one
-/// must have its edges early, or it draws together.
-fn of_curves(parts: &mut [f64], model: &Model, field: &[f64], shape: &SurfaceShape, bound: &BoundSurface) {
-    along_curves(model, shape, bound, |v, curvature| {
+/// The part of `field` that the curves inside a surface leave by themselves, if that is noticeably less. They are at rest long before the
+/// surface is, and a waist that is held by one must have its edges early, or it draws together.
+pub(super) fn held(
+    curves: &Curves,
+    field: &[f64],
+    shape: &SurfaceShape,
+    bound: &BoundSurface,
+) -> Option<Vec<f64>> {
+    let mut parts = vec![1.0_f64; field.len()];
+    along_curves(curves, shape, bound, |v, curvature| {
         parts[v] = parts[v].min(part(curvature * field[v]));
     });
+    parts.iter().any(|part| *part < NOTICED).then_some(parts)
 }
 
 /// Whether the curves inside a surface ask for edges much shorter than are wanted now.
-pub(super) fn is_overdue(model: &Model, shape: &SurfaceShape, bound: &BoundSurface) -> bool {
+pub(super) fn is_overdue(curves: &Curves, shape: &SurfaceShape, bound: &BoundSurface) -> bool {
     let mut is_overdue = false;
-    along_curves(model, shape, bound, |v, curvature| {
+    along_curves(curves, shape, bound, |v, curvature| {
         let wanted = shape.wanted.get(v).copied().unwrap_or(shape.spacing);
         is_overdue |= part(curvature * shape.spacing) * shape.spacing < OVERDUE * wanted;
     });
@@ -134,13 +133,13 @@ pub(super) fn is_overdue(model: &Model, shape: &SurfaceShape, bound: &BoundSurfa
 /// Visits the vertices on curves inside a surface with the normal curvature of their curve there, which is the surface's in that
 /// direction. (How a curve turns within the surface bends nothing.)
 fn along_curves(
-    model: &Model,
+    curves: &Curves,
     shape: &SurfaceShape,
     bound: &BoundSurface,
     mut visit: impl FnMut(usize, f64),
 ) {
     for embedded in &shape.embeddings {
-        let Some(curve) = model.curves.get(&embedded.curve) else { continue };
+        let Some(curve) = curves.get(&embedded.curve) else { continue };
         let squared: Vec<f64> = (0..curve.nodes.len())
             .zip(&embedded.vertices)
             .map(|(k, v)| curve.second_derivative(k).dot(bound.normals()[bound.node(*v) as usize]))
