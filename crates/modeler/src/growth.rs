@@ -160,11 +160,11 @@ impl Ground<'_> {
         skin: impl Fn(Start) -> Result<SurfaceShape, ModelError>,
     ) -> Result<SurfaceShape, ModelError> {
         let plain = skin(start(Laying::OnCurves, false, 0))?;
-        let mut bound = BoundSurface::new(self.id, &plain)?;
-        bound.fit();
-        if bound.unresolved() == 0 {
+        if self.is_resolved(&plain)? {
             return Ok(plain);
         }
+        // A solver of ten thousand nodes takes ten megabytes: what is not needed any more is given back before the next one.
+        drop(plain);
         let mut best: Option<(Score, SurfaceShape)> = None;
         let mut failure = ModelError::NoSurface(self.id);
         let mut resolved = Vec::new();
@@ -198,6 +198,7 @@ impl Ground<'_> {
     fn finish(&self, shape: &mut SurfaceShape) -> Result<Score, ModelError> {
         let mut bound = self.rounds(shape, 1, (FINE_ROUNDS, Objective::ThinPlate))?;
         if self.is_fair() {
+            drop(bound);
             bound = self.rounds(shape, 1, (FAIR_ROUNDS, Objective::Fair))?;
         }
         let asked = bound.motion(self.document, self.curves, shape).count();
@@ -234,10 +235,17 @@ impl Ground<'_> {
                 density::begin_necks(self, shape, &bound);
             }
             self.round(shape, stride, &mut bound)?;
+            drop(bound);
             bound = self.bind(shape, objective)?;
             bound.fit();
         }
         Ok(bound)
+    }
+
+    fn is_resolved(&self, shape: &SurfaceShape) -> Result<bool, ModelError> {
+        let mut bound = BoundSurface::new(self.id, shape)?;
+        bound.fit();
+        Ok(bound.unresolved() == 0)
     }
 
     fn bind(&self, shape: &SurfaceShape, objective: Objective) -> Result<BoundSurface, ModelError> {
