@@ -18,6 +18,7 @@ mod fill;
 mod glue;
 mod import;
 mod insert;
+mod lean;
 mod merge;
 mod mesh;
 mod normal;
@@ -171,6 +172,9 @@ fn act(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result<(), ModelErr
         Edit::Fill { hole, style } => fill::fill(model, relaxer, hole, *style),
         Edit::FillNetwork { curve, style } => fill::fill_network(model, relaxer, *curve, *style),
         Edit::Refill { surface, style } => fill::refill(model, relaxer, *surface, *style),
+        Edit::Lean { surface, side, turn, strength } => {
+            lean::lean(model, relaxer, *surface, *side, (*turn, *strength))
+        }
         Edit::Trim { first, second, smooth, ribbon } => {
             trim::trim((model, relaxer), [*first, *second], *smooth, *ribbon)
         }
