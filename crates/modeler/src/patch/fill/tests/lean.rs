@@ -42,7 +42,7 @@ fn degrees_between(one: DVec3, other: DVec3) -> f64 {
 
 /// The part of a cross derivative that does not run along the curve.
 fn across(ribbon: &Ribbon, u: f64) -> DVec3 {
-    let along = ribbon.tangent(u).normalize();
+    let along = ribbon.tangent(u).normalize_or_zero();
     ribbon.cross(u) - along * along.dot(ribbon.cross(u))
 }
 
