@@ -79,9 +79,9 @@ fn a_turn_is_met_in_the_middle_fades_to_the_corners_and_mirrors() {
             let off = (if angle == 0.0 { found.abs() } else { found - angle }).abs();
             let factor = now.length() / before.length();
             println!("{n} sides, {bulge}: {angle}° is {off:.1e}° off, {strength} times is {factor}");
-            // Turned and stretched at once a ribbon would have to be of degree 8 and more; cubic ones get no further than 7, and then the
-            // planes count more than the lengths.
-            let allowed = if angle == 0.0 || strength == 1.0 { 0.03 } else { 0.15 };
+            // Sides that are curves of a low degree, with ribbons of degree 7 at the most, cannot have quite the lengths in the planes, and
+            // the planes count more.
+            let allowed = if degree.is_none() { 0.005 } else { 0.15 };
             assert!(off < 0.01 && (factor / strength - 1.0).abs() < allowed, "{n}: {found} {factor}");
             for u in [0.0, 1.0] {
                 assert!(turned[0].cross(u).distance(fair[0].cross(u)) < 1e-9, "{n} at {u}");
