@@ -15,15 +15,18 @@ function middle(state, id) {
   return screen[Math.floor(screen.length / 2)];
 }
 
+/** Half way between two points in the picture: on a curve between them that is nearly straight there, and on no point. */
+const between = (state, ...ids) => [0, 1].map((axis) => ids.reduce((sum, id) => sum + point(state, id).screen[axis] / ids.length, 0));
+
 test("a loop is shown under the pointer and filled by a click; how it is filled can be chosen before and after", async () => {
   await withDocument(pentagon(), async (page, opened) => {
     await page.keyboard.press("f");
     await untilInspect(page, ({ tool }) => tool === "fill");
-    await page.mouse.move(...middle(opened, 1));
+    await page.mouse.move(...between(opened, 6, 2));
     const over = await untilInspect(page, ({ hover, marked }) => hover === "curve 1" && marked.lines >= 5);
     assert.equal(over.document, opened.document, "pointing changes nothing");
     await page.locator("#new-fill-degree").selectOption({ label: "4" });
-    await page.mouse.click(...middle(opened, 1));
+    await page.mouse.click(...between(opened, 6, 2));
     const filled = await atRest(page, ({ act }) => act === "Fill");
     const { fills } = await documentOf(page);
     assert.deepEqual(Object.keys(fills), ["1"]);
@@ -33,10 +36,10 @@ test("a loop is shown under the pointer and filled by a click; how it is filled 
     await drawn(page);
 
     // The same loop is filled already: the hint says so before a click, and a click changes nothing.
-    await page.mouse.move(...middle(opened, 5));
+    await page.mouse.move(...between(opened, 10, 1));
     await untilInspect(page, ({ hover }) => hover === "curve 5");
     await until(page, () => /^The loop at curve 5 is filled already\.$/.test(document.getElementById("hint").textContent), undefined, { timeout: 5000 });
-    await page.mouse.click(...middle(opened, 5));
+    await page.mouse.click(...between(opened, 10, 1));
     const refused = await untilInspect(page, ({ toast }) => toast?.startsWith("Fill: the loop at curve 5"));
     assert.equal(refused.document, filled.document);
     await page.keyboard.press("Escape");

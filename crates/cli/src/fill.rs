@@ -19,7 +19,7 @@ use thiserror::Error;
 /// Options of `fill`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Options {
-    /// Ribbons in JSON: one patch, or a list of them; - for standard input
+    /// Ribbons in JSON: one patch, or a list of them; or a generalised Bézier patch, .gbp; - for standard input
     ribbons: PathBuf,
     /// OBJ file to write, or - for standard output
     #[arg(short, long, value_name = "OUT.obj", required_unless_present_any = ["samples", "json"])]

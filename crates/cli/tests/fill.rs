@@ -133,6 +133,78 @@ fn the_mesh_is_the_surface() {
     assert_eq!(count, 17);
 }
 
+/// A generalised Bézier patch of degree 3 over a square, with twist points at some height.
+fn square_of_text(height: f64) -> String {
+    let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0_f64]];
+    let mut text = "4 3\n0 0 9\n".to_owned();
+    for k in 0..4 {
+        let ([a, b], [c, d]) = (corners[k], corners[(k + 1) % 4]);
+        for t in [0.0, 1.0 / 3.0, 2.0 / 3.0] {
+            text.push_str(&format!("{} {} 0\n", a + (c - a) * t, b + (d - b) * t));
+        }
+    }
+    for [x, y] in corners {
+        text.push_str(&format!("{} {} {height}\n", x / 3.0, y / 3.0));
+    }
+    text
+}
+
+#[test]
+fn a_generalised_bezier_patch_is_filled_as_the_same_ribbons_in_json() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (text, json, samples) = (place("patch.gbp"), place("ribbons.json"), place("samples.json"));
+    fs::write(&text, square_of_text(0.4)).unwrap();
+    let corner = |k: usize| [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]][k % 4];
+    let along = |k: usize, t: f64| {
+        let ([a, b], [c, d]) = (corner(k), corner(k + 1));
+        [a + (c - a) * t, b + (d - b) * t, 0.0]
+    };
+    let twist = |k: usize| [corner(k)[0] / 3.0, corner(k)[1] / 3.0, 0.4];
+    let (third, two) = (1.0 / 3.0, 2.0 / 3.0);
+    let side = |k: usize| {
+        let row0 = [corner3(corner(k)), along(k, third), along(k, two), corner3(corner(k + 1))];
+        json!({"row0": row0, "row1": [along(k + 3, two), twist(k), twist(k + 1), along(k + 1, third)]})
+    };
+    fs::write(&json, json!((0..4).map(side).collect::<Vec<_>>()).to_string()).unwrap();
+    fs::write(&samples, "[[0, 0], [0.3, 0.2], [-0.4, 0.1]]").unwrap();
+    let found = |file: &str| {
+        let run = ductile(&["fill", file, "--samples", &samples]);
+        assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+        String::from_utf8(run.stdout).unwrap()
+    };
+    assert_eq!(found(&text), found(&json));
+    let out = place("out.obj");
+    let report = json_of(&ductile(&["fill", &text, "-o", &out, "--json"]));
+    assert_eq!((&report["patches"][0]["sides"], &report["patches"][0]["depth"]), (&json!(4), &json!(6)));
+    let (mesh, _) = ductile_mesh::io::obj::read_mesh(&fs::read_to_string(&out).unwrap()).unwrap();
+    assert_eq!(mesh.faces().count(), 4 * 16 * 16);
+}
+
+fn corner3([x, y]: [f64; 2]) -> [f64; 3] {
+    [x, y, 0.0]
+}
+
+#[test]
+fn a_bad_line_of_a_file_of_text_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("bad.gbp");
+    let good = square_of_text(0.4);
+    for (text, wanted) in [
+        (good.replacen("4 3", "2 3", 1), "line 1"),
+        (good.replacen("0 0 9", "0 0", 1), "line 2"),
+        (good.clone() + "1 1 1\n", "line 19"),
+        (good.lines().take(9).collect::<Vec<_>>().join("\n"), "line 9"),
+        ("something else".to_owned(), "expected value"),
+    ] {
+        fs::write(&file, text).unwrap();
+        let run = ductile(&["fill", file.to_str().unwrap(), "-o", "-"]);
+        let said = String::from_utf8(run.stderr).unwrap();
+        assert_eq!(run.status.code(), Some(2), "{said}");
+        assert!(said.contains(wanted) && said.contains("bad.gbp"), "{said}");
+    }
+}
+
 #[test]
 fn patches_that_share_sides_are_sewn() {
     let patches = json!([square(0.0, 0.0), square(1.0, 0.0), square(0.0, 1.0), square(1.0, 1.0)]);

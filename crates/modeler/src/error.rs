@@ -1,5 +1,6 @@
 //! Why the modeler refuses: typed, with the offending thing in the message, in words for the designer.
 
+mod hole;
 mod overlay;
 mod rim;
 mod trim;
@@ -16,6 +17,7 @@ use ductile_spec::{CurveId, Defect, Document, LinkError, PointId, SurfaceId, Sur
 use glam::DVec3;
 use thiserror::Error;
 
+pub(crate) use hole::HoleError;
 pub(crate) use overlay::ShadowError;
 use overlay::displaced;
 pub(crate) use rim::RimError;
@@ -184,25 +186,9 @@ pub enum ModelError {
         /// Why not.
         reason: FillError,
     },
-    /// All loops along a curve are filled.
-    #[error("the loop at {0} is filled already")]
-    LoopFilled(CurveId),
-    /// A curve lies on no loop.
-    #[error(
-        "{0} lies on no loop that could be filled: curves must meet at control points, three sides or more"
-    )]
-    NoLoop(CurveId),
-    /// The loops have too few corners.
-    #[error(
-        "the loop along {0} has {1} corners; a patch needs at least 3. Choose corners, or skin a closed curve with Sheet"
-    )]
-    FewCorners(CurveId, usize),
-    /// All loops of a network are filled, or it has none.
-    #[error("there is no loop of curves left that could be filled")]
-    NothingToFill,
-    /// The surface is no fill.
-    #[error("{0} is no fill")]
-    NoFill(SurfaceId),
+    /// There is no such hole, or no such side of a fill.
+    #[error(transparent)]
+    Hole(#[from] HoleError),
     /// The surface is of another kind than the act can deal with.
     #[error("{surface} is {kind}: {act} works on fair surfaces only")]
     OnlyFair {

@@ -34,7 +34,7 @@ pub use displacement::{
 pub use network::{Directed, NetworkEdge, loops_through, network_faces, plane_of_directions};
 pub use ribbon::{
     Adjusted, MOST_DEGREE, MOST_SIDES, NoNormal, PlaneSample, Planed, Ribbon, RibbonError, RibbonLoop,
-    made_compatible, ribbons_along,
+    made_compatible, ribbons_along, ribbons_raised,
 };
 pub use seam::{Seam, seam};
 pub use surface_point::SurfacePoint;

@@ -15,7 +15,7 @@ mod compatible;
 mod planes;
 
 pub use compatible::{Adjusted, made_compatible};
-pub use planes::{PlaneSample, Planed, ribbons_along};
+pub use planes::{PlaneSample, Planed, ribbons_along, ribbons_raised};
 
 use crate::bezier::{curve_derivative, curve_point, elevated};
 use crate::surface_point::unit_normal;

@@ -142,6 +142,20 @@ pub enum Edit {
         /// How.
         style: FillStyle,
     },
+    /// Turns a fill about one of its sides, and makes it leave that side more or less strongly.
+    Lean {
+        /// Which fill.
+        surface: SurfaceId,
+        /// Which of its sides, from 1.
+        side: usize,
+        /// By how much its fair planes are turned in the middle of the side, in radians from -π/2 to π/2; positive lifts the patch
+        /// inside to the side of its normal.
+        #[serde(default)]
+        turn: f64,
+        /// By what the derivative across the side is multiplied in its middle, 0.1 to 5.
+        #[serde(default = "one")]
+        strength: f64,
+    },
     /// Cuts two surfaces along their intersection and joins them there (thesis section 3.4.1). One that the intersection
     /// does not divide is not cut: what is cut of the other stands on it.
     Trim {
@@ -418,6 +432,7 @@ impl Edit {
             Self::Fill { .. } => "Fill",
             Self::FillNetwork { .. } => "Fill all",
             Self::Refill { .. } => "Refill",
+            Self::Lean { .. } => "Lean",
             Self::Expand { .. } => "Expand",
             Self::Reverse { .. } => "Reverse",
             Self::Propagate { .. } => "Propagate",
@@ -449,6 +464,10 @@ impl Edit {
             Self::Rename { .. } => "Rename",
         }
     }
+}
+
+fn one() -> f64 {
+    1.0
 }
 
 fn middle() -> f64 {

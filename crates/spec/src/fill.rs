@@ -3,7 +3,7 @@
 //! Its sides are stretches of control curves, so that it follows whatever moves those; or it is given by ribbons, whose control
 //! points are in the document itself.
 
-use crate::document::Curve;
+use crate::document::{Curve, Document};
 use crate::id::{CurveId, PointId, SurfaceId};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -25,7 +25,7 @@ pub struct Fill {
 }
 
 /// A side of a fill: a stretch of a control curve.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FillSide {
     /// Which curve.
@@ -41,7 +41,22 @@ pub struct FillSide {
     /// the same side and says nothing either.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub planes: Option<SurfaceId>,
+    /// By how much its fair planes are turned about it in the middle, in radians from -π/2 to π/2: a positive turn lifts the patch
+    /// inside to the side of its normal. Towards both corners, where the next curves give the planes, the turn fades to nothing.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub turn: f64,
+    /// By what the derivative across it is multiplied in the middle, from [`LEAST_LEAN`] to [`MOST_LEAN`]: a strong side keeps
+    /// its direction farther into the patch. It fades to 1 towards the corners.
+    #[serde(default = "one", skip_serializing_if = "is_one")]
+    pub strength: f64,
 }
+
+/// The largest turn of a side of a fill, in radians: a right angle.
+pub const MOST_TURN: f64 = core::f64::consts::FRAC_PI_2;
+/// The least strength of a side of a fill.
+pub const LEAST_LEAN: f64 = 0.1;
+/// The largest strength of a side of a fill.
+pub const MOST_LEAN: f64 = 5.0;
 
 /// A ribbon: a Bézier curve with a second row of control points, which says in what plane the patch leaves it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -110,11 +125,12 @@ pub enum Hole {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         at: Option<DVec3>,
     },
-    /// A loop between given corners of a closed curve, in its sense: at least three of its points.
+    /// A loop with given corners. They are control points of a closed curve, at least three of them, and the loop has its sense. Or they
+    /// lie on a loop of several curves, which have corners where they meet and get these besides.
     Corners {
-        /// The curve.
+        /// The closed curve, or one of the loop.
         curve: CurveId,
-        /// Those points.
+        /// Those points, in any order.
         points: Vec<PointId>,
     },
     /// Sides that are given one by one.
@@ -137,6 +153,18 @@ pub struct CurveStretch {
 }
 
 impl FillSide {
+    /// A stretch of a curve, with fair planes.
+    #[must_use]
+    pub fn new(curve: CurveId, from: PointId, to: PointId) -> Self {
+        Self { curve, from, to, back: false, planes: None, turn: 0.0, strength: 1.0 }
+    }
+
+    /// Whether the patch leaves it otherwise than is fair.
+    #[must_use]
+    pub fn leans(&self) -> bool {
+        !is_zero(&self.turn) || !is_one(&self.strength)
+    }
+
     /// The stretch that it is of its curve, and whether it runs against the curve's sense.
     #[must_use]
     pub fn stretch(&self, curve: &Curve) -> (CurveStretch, bool) {
@@ -145,6 +173,58 @@ impl FillSide {
         let (from, to) = if back { (self.to, self.from) } else { (self.from, self.to) };
         (CurveStretch { curve: self.curve, from, to }, back)
     }
+}
+
+impl Document {
+    /// The other fill that joins one smoothly along a side, where neither says whose planes count: with its side there, and whether it
+    /// runs along the curve in the same sense. None if there are several.
+    #[must_use]
+    pub fn partner<'a>(&'a self, id: SurfaceId, side: &FillSide) -> Option<(SurfaceId, &'a FillSide, bool)> {
+        let curve = self.curves.get(&side.curve)?;
+        let (stretch, back) = side.stretch(curve);
+        let there = |(other, fill): (&SurfaceId, &'a Fill)| {
+            let found = fill.sides.iter().find(|there| {
+                there.curve == side.curve && there.planes.is_none() && there.stretch(curve).0 == stretch
+            })?;
+            Some((*other, found, found.stretch(curve).1 == back))
+        };
+        let mut others = self
+            .fills
+            .iter()
+            .filter(|(other, fill)| **other != id && fill.style.join == FillJoin::Tangent)
+            .filter_map(there);
+        let only = others.next()?;
+        others.next().is_none().then_some(only)
+    }
+
+    /// By how much the planes along a side of a fill are turned about it, in radians, in the sense of its [`FillSide::turn`]: its own
+    /// turn, and that of a patch that joins it smoothly there.
+    #[must_use]
+    pub fn turn_along(&self, id: SurfaceId, side: &FillSide) -> f64 {
+        let is_smooth = self.fills.get(&id).is_some_and(|fill| fill.style.join == FillJoin::Tangent);
+        if !is_smooth || side.planes.is_some() {
+            return 0.0;
+        }
+        side.turn
+            + self.partner(id, side).map_or(
+                0.0,
+                |(_, there, is_along)| {
+                    if is_along { there.turn } else { -there.turn }
+                },
+            )
+    }
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+fn is_one(value: &f64) -> bool {
+    *value == 1.0
+}
+
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
 }
 
 impl FillStyle {

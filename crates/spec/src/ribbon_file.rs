@@ -1,5 +1,7 @@
 //! Ribbons in a file of JSON: an object with `ribbons`, a list of such objects or of ribbons, or an object with `patches`. Each ribbon
-//! has `row0`, mostly `row1`, and perhaps its number as `side`. Other fields are not read.
+//! has `row0`, mostly `row1`, and perhaps its number as `side`. Other fields are not read. Or in one of text, `.gbp`.
+
+mod gbp;
 
 use crate::fill::{FillInterior, FillJoin, FillRibbon};
 use glam::DVec3;
@@ -37,6 +39,14 @@ pub enum RibbonFileError {
         /// How many ribbons it has.
         count: usize,
     },
+    /// A line of a file of text is not what it should be.
+    #[error("line {line}: {reason}")]
+    Line {
+        /// Which line, from 1.
+        line: usize,
+        /// What is wrong with it.
+        reason: String,
+    },
     /// The file names no patch.
     #[error("there are no ribbons in the file")]
     Empty,
@@ -63,7 +73,9 @@ struct Patch {
 /// Reads a text. None if it is no file of ribbons at all, but something else.
 #[must_use]
 pub fn ribbon_holes(text: &str) -> Option<Result<Vec<RibbonHole>, RibbonFileError>> {
-    let root: Value = serde_json::from_str(text).ok()?;
+    let Ok(root) = serde_json::from_str::<Value>(text) else {
+        return gbp::hole(text).map(|hole| Ok(vec![hole?]));
+    };
     let is_ribbon = |value: &Value| value.get("row0").is_some();
     let is_patch = |value: &Value| value.get("ribbons").is_some();
     let patches = match root {

@@ -240,13 +240,7 @@ fn of_two_surfaces_at_a_curve_only_one_can_lead() {
     let curve = CurveId(4);
     let mut document = sample();
     let through = document.curves[&curve].through.clone();
-    let side = |k: usize| FillSide {
-        curve,
-        from: through[k % through.len()],
-        to: through[(k + 1) % through.len()],
-        back: false,
-        planes: None,
-    };
+    let side = |k: usize| FillSide::new(curve, through[k % through.len()], through[(k + 1) % through.len()]);
     let fill = Fill { sides: (0..through.len()).map(side).collect(), ..Fill::default() };
     document.fills.insert(SurfaceId(9), fill);
     let onto = |onto| Ribbon { onto: Some(onto), ..Ribbon::default() };
@@ -504,4 +498,19 @@ fn the_largest_mesh_with_all_digits_is_a_file_that_can_be_read() {
     let text = to_text(&document);
     println!("the largest mesh: {} bytes", text.len());
     assert_eq!(from_text(&text), Ok(document));
+}
+
+#[test]
+fn a_script_may_leave_out_what_is_fair() {
+    let read = |text: &str| serde_json::from_str::<Edit>(text);
+    let lean = |turn, strength| Edit::Lean { surface: SurfaceId(1), side: 3, turn, strength };
+    for (rest, wanted) in [
+        ("", lean(0.0, 1.0)),
+        (r#", "turn": 0.5"#, lean(0.5, 1.0)),
+        (r#", "turn": -0.5, "strength": 2"#, lean(-0.5, 2.0)),
+    ] {
+        let text = format!(r#"{{"lean": {{"surface": 1, "side": 3{rest}}}}}"#);
+        assert_eq!(read(&text).unwrap(), wanted);
+    }
+    assert!(read(r#"{"lean": {"surface": 1, "side": 3, "tilt": 0.5}}"#).is_err());
 }

@@ -256,7 +256,7 @@ impl Toolbox {
     pub fn key(&mut self, key: ToolKey, around: Surroundings<'_>) -> Vec<Act> {
         match key {
             ToolKey::Done if !self.corners.is_empty() => self.end_path(false, around),
-            ToolKey::Done if !self.picked.is_empty() => self.fill_between(around.document),
+            ToolKey::Done if !self.picked.is_empty() => self.fill_between(around.document, None),
             ToolKey::Back if self.corners.pop().is_some() || self.picked.pop().is_some() => Vec::new(),
             ToolKey::Escape if !self.picked.is_empty() => {
                 self.picked.clear();

@@ -8,6 +8,7 @@ use crate::verify::reader::{Fields, Flaw, Item};
 use crate::verify::report::Report;
 use ductile_patch::Ribbon;
 use ductile_patch::s_patch::{Fill, Join};
+use ductile_spec::{RibbonHole, ribbon_holes};
 use std::path::Path;
 
 /// One hole.
@@ -17,16 +18,29 @@ pub(super) struct Request {
     pub(super) fill: Fill,
 }
 
-/// Reads a file: an object with `ribbons`, an object with `patches`, a list of such objects, or a list of ribbons.
+/// Reads a file of text (`.gbp`), or one of JSON: an object with `ribbons`, an object with `patches`, a list of such objects, or a list of ribbons.
 pub(super) fn read(file: &Path) -> Result<Vec<Request>, CliError> {
     let bad = |reason: String| CliError::Refused { file: file.to_owned(), reason };
     let text = input::read_up_to(file, MOST_BYTES)?;
-    let json: Json = serde_json::from_str(&text).map_err(|reason| bad(reason.to_string()))?;
+    let json: Json = match serde_json::from_str(&text) {
+        Ok(json) => json,
+        Err(reason) => {
+            // No JSON: a file of text, or nothing that is known.
+            let of_text = ribbon_holes(&text).ok_or_else(|| bad(reason.to_string()))?;
+            let holes = of_text.map_err(|reason| bad(reason.to_string()))?;
+            return Ok(holes.into_iter().map(of_hole).collect());
+        }
+    };
     let found = requests(&Item::root(&json)).map_err(|flaw| bad(flaw.to_string()))?;
     if found.is_empty() {
         return Err(bad("there are no ribbons".into()));
     }
     Ok(found)
+}
+
+fn of_hole(hole: RibbonHole) -> Request {
+    let ribbons = hole.ribbons.into_iter().map(|ribbon| Ribbon { row0: ribbon.row0, row1: ribbon.row1 });
+    Request { ribbons: ribbons.collect(), join: Join::Tangent, fill: Fill::Biharmonic }
 }
 
 fn requests(root: &Item<'_>) -> Result<Vec<Request>, Flaw> {

@@ -18,6 +18,7 @@ mod fill;
 mod glue;
 mod import;
 mod insert;
+mod lean;
 mod merge;
 mod mesh;
 mod normal;
@@ -168,9 +169,9 @@ fn act(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result<(), ModelErr
         Edit::SLoop { surface, along, closed } => s_loop::s_loop(model, *surface, along, *closed),
         Edit::Glue { from, to, skirt, reversed } => glue::glue(model, *from, *to, *skirt, *reversed),
         Edit::Merge { from, to, radius, keep } => merge::merge(model, *from, *to, *radius, *keep),
-        Edit::Fill { hole, style } => fill::fill(model, relaxer, hole, *style),
-        Edit::FillNetwork { curve, style } => fill::fill_network(model, relaxer, *curve, *style),
-        Edit::Refill { surface, style } => fill::refill(model, relaxer, *surface, *style),
+        Edit::Fill { .. } | Edit::FillNetwork { .. } | Edit::Refill { .. } | Edit::Lean { .. } => {
+            act_on_fill(model, relaxer, edit)
+        }
         Edit::Trim { first, second, smooth, ribbon } => {
             trim::trim((model, relaxer), [*first, *second], *smooth, *ribbon)
         }
@@ -213,6 +214,19 @@ fn act(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result<(), ModelErr
 fn rename(model: &mut Model, name: &str) -> Result<(), ModelError> {
     name.clone_into(&mut model.document_mut().name);
     Ok(model.document.validate()?)
+}
+
+/// The acts on fills.
+fn act_on_fill(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result<(), ModelError> {
+    match edit {
+        Edit::Fill { hole, style } => fill::fill(model, relaxer, hole, *style),
+        Edit::FillNetwork { curve, style } => fill::fill_network(model, relaxer, *curve, *style),
+        Edit::Refill { surface, style } => fill::refill(model, relaxer, *surface, *style),
+        Edit::Lean { surface, side, turn, strength } => {
+            lean::lean(model, relaxer, *surface, *side, (*turn, *strength))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// The acts on cages.

@@ -34,6 +34,13 @@ pub struct PlaneSample {
     pub u: f64,
     /// Normal of the plane, of any length but 0, on either side.
     pub normal: DVec3,
+    /// By how much the plane is turned about the side first, in radians from -π/2 to π/2. A positive turn takes what leads inwards to
+    /// the side of the ribbon's normal.
+    pub turn: f64,
+    /// How far the ribbon is to reach across the side, 1 as far as it does where nothing is turned and reaches 1.
+    pub reach: f64,
+    /// Whether the plane, before it is turned, is the one that the ribbon has by default.
+    pub is_own: bool,
 }
 
 /// Ribbons along a loop of curves.
@@ -53,6 +60,19 @@ pub struct Planed {
 /// # Errors
 /// As [`RibbonLoop::of_curves`].
 pub fn ribbons_along(curves: &[Vec<DVec3>], planes: &[PlaneSample]) -> Result<Planed, RibbonError> {
+    ribbons_raised(curves, planes, 0)
+}
+
+/// As [`ribbons_along`], with ribbons of a degree of at least `least`. They have the same defaults as without, and more freedom to be
+/// turned and to reach farther.
+///
+/// # Errors
+/// As [`RibbonLoop::of_curves`].
+pub fn ribbons_raised(
+    curves: &[Vec<DVec3>],
+    planes: &[PlaneSample],
+    least: usize,
+) -> Result<Planed, RibbonError> {
     let loose = RibbonLoop::of_curves(curves)?;
     let mut rows: Vec<Vec<DVec3>> = loose.ribbons.into_iter().map(|ribbon| ribbon.row0).collect();
     let degree = rows[0].len() - 1;
@@ -66,14 +86,26 @@ pub fn ribbons_along(curves: &[Vec<DVec3>], planes: &[PlaneSample]) -> Result<Pl
         rows[before][d] = rows[side][0];
     }
     let mut ribbons: Vec<Ribbon> = (0..sides).map(|side| by_default(&rows, side)).collect();
-    meet(&mut ribbons, planes);
+    let given = planes.iter().filter(|plane| !plane.is_own);
+    let fair: Vec<PlaneSample> =
+        given.map(|plane| PlaneSample::new(plane.side, plane.u, plane.normal)).collect();
+    meet(&mut ribbons, &fair, REACH_WEIGHT);
+    for ribbon in &mut ribbons {
+        *ribbon = (d..least).fold(ribbon.clone(), |ribbon, _| ribbon.elevated());
+    }
+    if planes != fair || d < least {
+        // Turned and stretched beside what is fair; then back into the planes, whose part in this was spoiled by the lengths.
+        meet(&mut ribbons, planes, REACH_WEIGHT);
+        meet(&mut ribbons, planes, 0.0);
+    }
     let ribbons = RibbonLoop::raised(&ribbons, 2)?;
     ribbons.check_pairs(&PAIRS)?;
     let mut angles = vec![0.0; sides];
     for plane in planes.iter().filter(|plane| plane.is_for(sides)) {
         let own = ribbons.ribbons[plane.side].normal(plane.u);
         let turn = own.map_or(core::f64::consts::FRAC_PI_2, |own| {
-            libm::atan2(own.cross(plane.normal).length(), own.dot(plane.normal).abs())
+            let normal = plane.turned(ribbons.ribbons[plane.side].tangent(plane.u).normalize_or_zero());
+            libm::atan2(own.cross(normal).length(), own.dot(normal).abs())
         });
         angles[plane.side] = f64::max(angles[plane.side], turn);
     }
@@ -81,8 +113,29 @@ pub fn ribbons_along(curves: &[Vec<DVec3>], planes: &[PlaneSample]) -> Result<Pl
 }
 
 impl PlaneSample {
+    /// A plane that is not turned, and a ribbon that reaches as far as by default.
+    #[must_use]
+    pub fn new(side: usize, u: f64, normal: DVec3) -> Self {
+        Self { side, u, normal, turn: 0.0, reach: 1.0, is_own: false }
+    }
+
+    /// The normal, turned about the unit tangent of the side.
+    #[must_use]
+    pub fn turned(&self, along: DVec3) -> DVec3 {
+        if self.turn == 0.0 {
+            return self.normal;
+        }
+        let (sin, cos) = libm::sincos(self.turn);
+        let kept = along * along.dot(self.normal);
+        kept + (self.normal - kept) * cos + along.cross(self.normal) * sin
+    }
+
     fn is_for(&self, sides: usize) -> bool {
-        self.side < sides && (0.0..=1.0).contains(&self.u) && self.normal.try_normalize().is_some()
+        self.side < sides
+            && (0.0..=1.0).contains(&self.u)
+            && self.normal.try_normalize().is_some()
+            && self.turn.is_finite()
+            && self.reach.is_finite()
     }
 }
 
@@ -130,8 +183,9 @@ fn weigh_in(
     }
 }
 
-/// Moves the free points of all rows 1 into the planes, and leaves them at their defaults where planes do not care.
-fn meet(ribbons: &mut [Ribbon], planes: &[PlaneSample]) {
+/// Moves the free points of all rows 1 into the planes, and leaves them where they are where planes do not care; what they reach across
+/// is kept with that weight.
+fn meet(ribbons: &mut [Ribbon], planes: &[PlaneSample], reach_weight: f64) {
     let (sides, d) = (ribbons.len(), ribbons[0].degree());
     let count = sides + sides * (d - 3);
     let (mut entries, mut right) = (Vec::new(), vec![0.0; 3 * count]);
@@ -147,15 +201,17 @@ fn meet(ribbons: &mut [Ribbon], planes: &[PlaneSample]) {
         }
     }
     for plane in planes.iter().filter(|plane| plane.is_for(sides)) {
-        let Some(normal) = plane.normal.try_normalize() else { continue };
         let (ribbon, weights) = (&ribbons[plane.side], basis(d, plane.u));
         let along = ribbon.tangent(plane.u).normalize_or_zero();
         let leg: DVec3 =
             weights.iter().zip(ribbon.row1.iter().zip(&ribbon.row0)).map(|(w, (a, b))| (*a - *b) * *w).sum();
         let across = leg - along * along.dot(leg);
+        // What leads inwards in the plane before it is turned does so in it afterwards.
+        let way = if plane.normal.cross(along).dot(across) < 0.0 { -plane.reach } else { plane.reach };
+        let Some(normal) = plane.turned(along).try_normalize() else { continue };
         let within = normal.cross(along).normalize_or_zero();
-        let reach = if within.dot(across) < 0.0 { -across.length() } else { across.length() };
-        for (direction, value, share) in [(normal, 0.0, 1.0), (within, reach, REACH_WEIGHT)] {
+        let reach = way * across.length();
+        for (direction, value, share) in [(normal, 0.0, 1.0), (within, reach, reach_weight)] {
             // Σ b_j (row1_j - row0_j) · direction = value, with what is fixed on the right.
             let mut known = value;
             let mut free: Vec<(usize, f64)> = Vec::new();
@@ -213,11 +269,7 @@ mod tests {
             let fit = fit_curve(&arc, degree).unwrap();
             for &u in &fit.parameters {
                 let normal = curve_point(&fit.points, u) - offset;
-                planes.push(PlaneSample {
-                    side,
-                    u,
-                    normal: if side % 2 == 0 { normal } else { -3.0 * normal },
-                });
+                planes.push(PlaneSample::new(side, u, if side % 2 == 0 { normal } else { -3.0 * normal }));
             }
             curves.push(fit.points);
         }
@@ -268,6 +320,44 @@ mod tests {
         }
     }
 
+    /// The same planes, turned by what the samples say: nothing else than planes that lean.
+    #[test]
+    fn a_turn_of_a_sample_turns_the_plane_and_keeps_the_reach_that_is_asked_for() {
+        let (curves, planes) = hole(5, 9, DVec3::ZERO);
+        let fair = ribbons_along(&curves, &planes).unwrap().ribbons;
+        for (turn, reach) in [(0.5, 1.0), (-0.5, 2.0), (0.0, 0.5), (1.5, 1.0)] {
+            let f = |u: f64| 16.0 * (u * (1.0 - u)) * (u * (1.0 - u));
+            let leaning: Vec<PlaneSample> = planes
+                .iter()
+                .map(|plane| {
+                    let of_one = plane.side == 2;
+                    let f = if of_one { f(plane.u) } else { 0.0 };
+                    let (sin, cos) = libm::sincos(turn);
+                    let (up, within) = (f * sin, 1.0 + (cos - 1.0) * f);
+                    let far = libm::hypot(up, within) * (1.0 + (reach - 1.0) * f);
+                    PlaneSample { turn: libm::atan2(up, within), reach: far, ..*plane }
+                })
+                .collect();
+            let found = ribbons_along(&curves, &leaning).unwrap();
+            println!("{turn}, {reach}: {:?}", found.angles);
+            assert!(found.angles.iter().all(|angle| *angle < 1e-3), "{turn}, {reach}: {:?}", found.angles);
+            let (own, before) = (&found.ribbons.ribbons()[2], &fair.ribbons()[2]);
+            let along = before.tangent(0.5).normalize_or_zero();
+            let across = |ribbon: &Ribbon| ribbon.cross(0.5) - along * along.dot(ribbon.cross(0.5));
+            let (was, is) = (across(before), across(own));
+            // Counter-clockwise about the side, from what it was.
+            let angle = libm::atan2(along.dot(was.cross(is)), was.dot(is));
+            assert!((angle - turn).abs() < 1e-3, "{turn}: {angle}");
+            assert!((is.length() / was.length() / reach - 1.0).abs() < 0.05, "{reach}: {}", is.length());
+            for side in [0, 1, 3, 4] {
+                let (one, other) = (&found.ribbons.ribbons()[side], &fair.ribbons()[side]);
+                let off =
+                    (0..=20).map(|k| f64::from(k) / 20.0).map(|u| one.cross(u).distance(other.cross(u)));
+                assert!(off.fold(0.0, f64::max) < 0.02 * across(before).length(), "{turn}: side {side}");
+            }
+        }
+    }
+
     #[test]
     fn the_place_does_not_matter() {
         let (curves, planes) = hole(5, 5, DVec3::ZERO);
@@ -302,10 +392,10 @@ mod tests {
         let corners = [DVec3::ZERO, DVec3::X, DVec3::new(1.0, 1.0, 0.2), DVec3::Y];
         let curves: Vec<Vec<DVec3>> = (0..4).map(|k| vec![corners[k], corners[(k + 1) % 4]]).collect();
         let nonsense = [
-            PlaneSample { side: 9, u: 0.5, normal: DVec3::Z },
-            PlaneSample { side: 0, u: f64::NAN, normal: DVec3::Z },
-            PlaneSample { side: 0, u: 0.5, normal: DVec3::ZERO },
-            PlaneSample { side: 0, u: 0.5, normal: DVec3::NAN },
+            PlaneSample::new(9, 0.5, DVec3::Z),
+            PlaneSample::new(0, f64::NAN, DVec3::Z),
+            PlaneSample::new(0, 0.5, DVec3::ZERO),
+            PlaneSample::new(0, 0.5, DVec3::NAN),
         ];
         let found = ribbons_along(&curves, &nonsense).unwrap();
         assert_eq!((found.ribbons.degree(), found.angles), (3, vec![0.0; 4]));

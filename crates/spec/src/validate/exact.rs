@@ -4,7 +4,7 @@
 use super::{Defect, MAX_SAMPLES, MAX_SURFACES, MAX_TRIANGLES, coordinate, limit};
 use crate::cage::{Cage, CageBlend, MAX_BUMP, MAX_CAGE_RESOLUTION, MAX_HERMITE};
 use crate::document::Document;
-use crate::fill::{Fill, FillRibbon, FillStyle};
+use crate::fill::{Fill, FillRibbon, FillStyle, LEAST_LEAN, MOST_LEAN, MOST_TURN};
 use crate::id::{PointId, SurfaceId};
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
@@ -36,6 +36,20 @@ impl Document {
             validate_fill(*id, fill, self)?;
         }
         validate_sources(&self.fills)?;
+        self.validate_turns()?;
+        Ok(())
+    }
+
+    /// Two fills that agree on the planes along a curve are turned about it together: by no more than one alone could be.
+    fn validate_turns(&self) -> Result<(), Defect> {
+        for (id, fill) in &self.fills {
+            for (side, now) in fill.sides.iter().enumerate() {
+                if self.turn_along(*id, now).abs() > MOST_TURN {
+                    let why = "is turned about by more than 90° by the two patches that join smoothly there";
+                    return Err(Defect::FillSide { surface: *id, side, curve: now.curve, why });
+                }
+            }
+        }
         Ok(())
     }
 }
@@ -111,6 +125,15 @@ fn validate_fill(id: SurfaceId, fill: &Fill, document: &Document) -> Result<(), 
         }
         if !seen.insert(now.from) {
             return refuse("begins where another side begins");
+        }
+        if !(-MOST_TURN..=MOST_TURN).contains(&now.turn) {
+            return refuse("is left with a turn that is no angle from -90° to 90°");
+        }
+        if !(LEAST_LEAN..=MOST_LEAN).contains(&now.strength) {
+            return refuse("is left with a strength that is no number from 0.1 to 5");
+        }
+        if now.turn != 0.0 && now.planes.is_some() {
+            return refuse("cannot be turned about, since the planes along it come from another surface");
         }
         if let Some(beside) = now.planes
             && (beside == id || document.kind_of(beside).is_none())

@@ -128,7 +128,7 @@ impl Page {
     }
 
     /// The selected fill.
-    fn filled(&self) -> Option<(SurfaceId, &Fill)> {
+    pub(crate) fn filled(&self) -> Option<(SurfaceId, &Fill)> {
         let Selection::Surface(id) = self.selection else { return None };
         self.document.fills.get(&id).map(|fill| (id, fill))
     }
@@ -168,25 +168,7 @@ impl Page {
         dom::show(&dom::element("fill-properties"), filled.is_some());
         let Some((id, fill)) = filled else { return };
         show_style(1, fill.style);
-        let list = dom::element("fill-sides");
-        dom::clear(&list);
-        for (at, side) in fill.sides.iter().enumerate() {
-            let planes = match side.planes {
-                _ if fill.style.join == FillJoin::Position => "positions only".to_owned(),
-                Some(beside) => format!("planes of surface {}", beside.0),
-                None => "fair planes".to_owned(),
-            };
-            let button = dom::command_button("", "", "select");
-            dom::attribute(&button, "data-subject", &format!("curve {}", side.curve.0));
-            let name = format!("Side {} · curve {}", at + 1, side.curve.0);
-            dom::append(
-                &button,
-                [&dom::create_with("span", "", &name), &dom::create_with("span", "note", &planes)],
-            );
-            let item = dom::create("li");
-            dom::append(&item, [&button]);
-            dom::append(&list, [&item]);
-        }
+        self.show_sides(id, fill);
         let text = match self.reporting.of_fill(id) {
             None => "…".to_owned(),
             Some(figures) => match &figures.stuck {

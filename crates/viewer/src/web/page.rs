@@ -11,8 +11,8 @@ use super::port::Port;
 use super::settings::Settings;
 use super::stage::Stage;
 use super::{
-    cage, canvas, commands, density, displace, fields, files, fill, inspect, keyboard, link, objectives,
-    opening, ribbon, seams, stage,
+    cage, canvas, commands, density, displace, fields, files, fill, inspect, keyboard, lean, link,
+    objectives, opening, ribbon, seams, stage,
 };
 use crate::limit::Limit;
 use crate::memory::Memory;
@@ -63,6 +63,8 @@ pub(crate) struct Page {
     pub(crate) reporting: Reporting,
     /// The seam of the report that is pointed at.
     pub(crate) seam_over: Option<usize>,
+    /// The side of the selected fill that is pointed at in its list.
+    pub(crate) side_over: Option<usize>,
     /// Where the tangent strips run that are shown.
     pub(crate) strips: Vec<StripCourse>,
     /// What would do nearly what was refused.
@@ -142,6 +144,7 @@ pub(crate) fn start() {
         looping: Looping::default(),
         reporting: Reporting::default(),
         seam_over: None,
+        side_over: None,
         strips: Vec::new(),
         remedies: Vec::new(),
         seams_shown: String::new(),
@@ -190,6 +193,7 @@ fn listen() {
     cage::listen();
     displace::listen();
     fill::listen();
+    lean::listen();
     seams::listen();
     legend::listen();
     ribbon::listen();

@@ -5,7 +5,7 @@ use super::fill::few;
 use super::page::{Page, act};
 use crate::Highlight;
 use crate::tool::Selection;
-use ductile_spec::{SeamFigures, SurfaceId};
+use ductile_spec::{CurveStretch, SeamFigures, SurfaceId};
 use glam::Vec3;
 use wasm_bindgen::JsCast;
 use web_sys::{Element, Event};
@@ -104,20 +104,20 @@ impl Page {
     /// The seam of the report that is pointed at.
     pub(crate) fn mark_seam(&self, mark: &mut Highlight) {
         let seam = self.seam_over.and_then(|at| self.reporting.report()?.seams.get(at));
-        let line = seam.and_then(|seam| self.seam_line(seam));
+        let line = seam.and_then(|seam| self.stretch_line(&seam.stretch));
         mark.sketch.extend(line.filter(|line| line.len() > 1));
     }
 
-    /// The samples of a curve along a seam.
-    fn seam_line(&self, seam: &SeamFigures) -> Option<Vec<Vec3>> {
-        let span = self.scene.curve(seam.stretch.curve)?;
+    /// The samples of a curve along a stretch of it.
+    pub(crate) fn stretch_line(&self, stretch: &CurveStretch) -> Option<Vec<Vec3>> {
+        let span = self.scene.curve(stretch.curve)?;
         let samples: Vec<Vec3> = self.scene.samples(span.id).collect();
         let nearest = |id| {
             let at = self.scene.point(id)?;
             let distance = |k: &usize| samples[*k].distance_squared(at);
             (0..samples.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))
         };
-        let (from, to) = (nearest(seam.stretch.from)?, nearest(seam.stretch.to)?);
+        let (from, to) = (nearest(stretch.from)?, nearest(stretch.to)?);
         let count = samples.len();
         let steps = if to > from {
             to - from

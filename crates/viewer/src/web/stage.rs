@@ -305,6 +305,7 @@ impl Page {
             ToolKind::Shadow => self.mark_shadow(&mut mark),
         }
         self.mark_seam(&mut mark);
+        self.mark_side(&mut mark);
         self.mark_strips(&mut mark);
         mark
     }

@@ -79,6 +79,11 @@ impl Curves {
         })
     }
 
+    /// The parts of a curve.
+    pub(super) fn parts_of(&self, curve: CurveId) -> Vec<usize> {
+        (0..self.parts.len()).filter(|at| self.parts[*at].curve == curve).collect()
+    }
+
     /// Whether a loop is a closed curve by itself.
     pub(super) fn alone(&self, found: &[Directed]) -> Option<CurveId> {
         let [only] = found else { return None };
@@ -103,13 +108,8 @@ impl Curves {
             let (from, to) = if step.back { (last, first) } else { (first, last) };
             match sides.last_mut() {
                 Some(side) if before.is_some_and(|before| goes_on(&before, &step)) => side.to = to,
-                _ => sides.push(FillSide {
-                    curve: part.curve,
-                    from,
-                    to,
-                    back: part.closed && step.back,
-                    planes: None,
-                }),
+                _ => sides
+                    .push(FillSide { back: part.closed && step.back, ..FillSide::new(part.curve, from, to) }),
             }
             before = Some(step);
         }
@@ -259,6 +259,7 @@ pub(super) fn reversed(sides: &[FillSide], is_closed: impl Fn(CurveId) -> bool) 
         from: side.to,
         to: side.from,
         back: is_closed(side.curve) && !side.back,
+        turn: -side.turn,
         ..*side
     };
     sides.iter().rev().map(turn).collect()

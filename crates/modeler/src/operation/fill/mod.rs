@@ -1,9 +1,10 @@
 //! `fill`: an exact patch in a loop of curves, of rims, or of both (P. Salvi, *G1 hole filling with S-patches made easy*, 2020); and
 //! `fill-network`: patches in all loops of a network at once.
 
+mod corners;
 mod loops;
 
-use crate::error::ModelError;
+use crate::error::{HoleError, ModelError};
 use crate::model::Model;
 use crate::patch::{self, PatchRim};
 use crate::relax::Relaxer;
@@ -32,7 +33,8 @@ pub(super) fn fill(
         Hole::CompatibleRibbons(ribbons) => fill.ribbons = compatible(model, ribbons)?,
         Hole::Sides(sides) => fill.sides.clone_from(sides),
         Hole::Corners { curve, points } => {
-            fill.sides = with_planes(model, &neighbours, between_corners(model, *curve, points)?);
+            fill.sides =
+                with_planes(model, &neighbours, corners::between(model, &neighbours, *curve, points)?);
         }
         Hole::Near { curve, at } => {
             let sides = nearest_loop(model, &neighbours, *curve, *at)?;
@@ -98,7 +100,7 @@ pub(super) fn fill_network(
     }
     if good.is_empty() {
         why.unwrap_or(Ok(()))?;
-        return Err(ModelError::NothingToFill);
+        return Err(HoleError::NothingToFill.into());
     }
     patch::follow(model, Some(relaxer));
     Ok(())
@@ -122,7 +124,7 @@ pub(super) fn refill(
     style: FillStyle,
 ) -> Result<(), ModelError> {
     let is_there = model.document.kind_of(id).is_some();
-    let none = if is_there { ModelError::NoFill(id) } else { ModelError::NoSurface(id) };
+    let none = if is_there { HoleError::NoFill(id).into() } else { ModelError::NoSurface(id) };
     model.document_mut().fills.get_mut(&id).ok_or(none)?.style = style;
     model.document.validate()?;
     patch::follow(model, Some(relaxer));
@@ -157,7 +159,7 @@ fn nearest_loop(
     }
     let curves = Curves::of(model, |_| true);
     let edge = at.and_then(|at| shape.nearest(at)).map_or(0, |(edge, _)| edge);
-    let part = curves.part_at(curve, edge, shape.nodes.len()).ok_or(ModelError::NoLoop(curve))?;
+    let part = curves.part_at(curve, edge, shape.nodes.len()).ok_or(HoleError::NoLoop(curve))?;
     let mut best: Option<((bool, usize, usize), Vec<FillSide>)> = None;
     let mut is_filled = false;
     for found in loops_through(&curves.edges, part) {
@@ -175,9 +177,9 @@ fn nearest_loop(
             best = Some((key, sides));
         }
     }
-    let none = if is_filled { ModelError::LoopFilled(curve) } else { ModelError::NoLoop(curve) };
+    let none = if is_filled { HoleError::LoopFilled(curve) } else { HoleError::NoLoop(curve) };
     let (_, sides) = best.ok_or(none)?;
-    if sides.len() < 3 { Err(ModelError::FewCorners(curve, sides.len())) } else { Ok(sides) }
+    if sides.len() < 3 { Err(HoleError::FewCorners(curve, sides.len()).into()) } else { Ok(sides) }
 }
 
 /// The sides of a closed curve between the control points where it turns sharply.
@@ -195,33 +197,7 @@ fn at_corners(model: &Model, id: CurveId) -> Result<Vec<FillSide>, ModelError> {
         .filter(|(sample, _)| turns(*sample as usize))
         .map(|(_, point)| *point)
         .collect();
-    between_corners(model, id, &corners)
-}
-
-/// The sides of a closed curve between given points of it.
-fn between_corners(model: &Model, id: CurveId, corners: &[PointId]) -> Result<Vec<FillSide>, ModelError> {
-    let curve = model.document.curves.get(&id).ok_or(ModelError::NoCurve(id))?;
-    if !curve.closed {
-        return Err(ModelError::OpenCurve(id));
-    }
-    if let Some(point) = corners.iter().find(|point| !curve.through.contains(point)) {
-        return Err(ModelError::NotOnCurve { curve: id, point: *point });
-    }
-    // In the order of the curve, each once.
-    let corners: Vec<PointId> =
-        curve.through.iter().copied().filter(|point| corners.contains(point)).collect();
-    if corners.len() < 3 {
-        return Err(ModelError::FewCorners(id, corners.len()));
-    }
-    let next = corners.iter().cycle().skip(1);
-    let side = |(from, to): (&PointId, &PointId)| FillSide {
-        curve: id,
-        from: *from,
-        to: *to,
-        back: false,
-        planes: None,
-    };
-    Ok(corners.iter().zip(next).map(side).collect())
+    corners::on_closed(model, id, &corners)
 }
 
 /// The curves that hang together with one by points in common.

@@ -22,7 +22,7 @@ use crate::model::Model;
 use crate::relax::Relaxer;
 use crate::shape::edit;
 use ductile_patch::s_patch::{Fill as Rule, Join, PatchKind, SPatch, Tessellated};
-use ductile_patch::{PlaneSample, Ribbon, RibbonLoop, curve_point, elevated, ribbons_along};
+use ductile_patch::{PlaneSample, Ribbon, RibbonLoop, curve_point, elevated, ribbons_along, ribbons_raised};
 use ductile_spec::{
     CurveId, FILL_RESOLUTION, Fill, FillFigures, FillInterior, FillJoin, FillStyle, SurfaceId,
 };
@@ -51,6 +51,8 @@ pub struct FillShape {
     /// What it was last made from, or should have been.
     drawn: Vec<Drawn>,
     style: FillStyle,
+    /// The least degree of its ribbons.
+    degree: usize,
     planes: Vec<Given>,
     /// Its sides, and its ribbons as they would be without planes.
     pub(crate) sides: Vec<Side>,
@@ -82,6 +84,7 @@ impl FillShape {
         Self {
             drawn: Vec::new(),
             style,
+            degree: 0,
             planes: Vec::new(),
             sides: Vec::new(),
             base: None,
@@ -125,10 +128,10 @@ impl FillShape {
     }
 
     /// New curves: their fits, and the ribbons that they have by themselves.
-    fn redraw(&mut self, fill: &Fill, degree: usize, drawn: Vec<Drawn>) {
+    fn redraw(&mut self, fill: &Fill, (own, degree): (usize, usize), drawn: Vec<Drawn>) {
         self.drawn = drawn;
-        self.style = fill.style;
-        let fitted = fitted(fill, degree, &self.drawn);
+        (self.style, self.degree) = (fill.style, degree);
+        let fitted = fitted(fill, own, &self.drawn);
         self.is_behind = fitted.is_err();
         self.failure = fitted.as_ref().err().copied();
         if let Ok((sides, base)) = fitted {
@@ -140,7 +143,7 @@ impl FillShape {
     fn rebuild(&mut self, planes: Vec<Given>, known: impl Fn(&Wanted) -> Option<Arc<PatchKind>>) {
         self.planes = planes;
         let Some(base) = &self.base else { return };
-        let built = built(base, &self.sides, self.style, &self.planes, known);
+        let built = built(base, &self.sides, (self.style, self.degree), &self.planes, known);
         self.failure = built.as_ref().err().copied();
         if let Ok(built) = built {
             self.built = Some(built);
@@ -204,7 +207,7 @@ fn check_corners(fill: &Fill, rows: &[Vec<DVec3>]) -> Result<(), FillError> {
 fn built(
     base: &RibbonLoop,
     sides: &[Side],
-    style: FillStyle,
+    (style, degree): (FillStyle, usize),
     planes: &[Given],
     known: impl Fn(&Wanted) -> Option<Arc<PatchKind>>,
 ) -> Result<Built, FillError> {
@@ -212,7 +215,7 @@ fn built(
     if style.join == FillJoin::Tangent && !planes.is_empty() {
         let rows: Vec<Vec<DVec3>> = base.ribbons().iter().map(|ribbon| ribbon.row0.clone()).collect();
         let samples: Vec<PlaneSample> = planes.iter().map(|given| given.sample).collect();
-        ribbons = ribbons_along(&rows, &samples)?.ribbons;
+        ribbons = ribbons_raised(&rows, &samples, degree)?.ribbons;
         angle = planes.iter().map(|given| given.angle(&ribbons)).fold(0.0, f64::max);
     }
     let rule = match style.interior {
@@ -290,15 +293,16 @@ pub(crate) fn follow(model: &mut Model, relaxer: Option<&Relaxer>) {
     let mut is_new: BTreeSet<SurfaceId> = BTreeSet::new();
     for (id, fill) in &document.fills {
         let Some(shape) = shape(model, *id) else { continue };
-        let own = degree::of(&document, fill);
+        let (own, of_ribbons) = (degree::of(&document, fill), degree::of_ribbons(&document, *id, fill));
         let drawn = side::all_drawn(model, &corner_planes, fill, |stretch| {
             degrees.get(stretch).copied().unwrap_or(own)
         });
         match drawn {
             Ok(drawn) => {
                 let is_first = shape.base.is_none() && shape.failure.is_none();
-                if is_first || drawn != shape.drawn || fill.style != shape.style {
-                    change(model, *id, |shape| shape.redraw(fill, own, drawn));
+                let is_same = fill.style == shape.style && of_ribbons == shape.degree;
+                if is_first || drawn != shape.drawn || !is_same {
+                    change(model, *id, |shape| shape.redraw(fill, (own, of_ribbons), drawn));
                     is_new.insert(*id);
                 }
             }

@@ -4,14 +4,14 @@
 //! An agreed plane lies half way between what the two ribbons would have by themselves. At a corner all curves of fills there
 //! should lie in one plane (see `modeler/network`), and the agreed planes lead up to that one.
 
-use super::{Drawn, Side, shape};
+use super::{Drawn, FillShape, Side, shape};
 use crate::bank;
 use crate::model::Model;
 use crate::patch::PatchRim;
 use crate::relax::Relaxer;
 use ductile_patch::s_patch::Domain;
 use ductile_patch::{PlaneSample, RibbonLoop, curve_derivative, plane_of_directions};
-use ductile_spec::{CurveId, CurveStretch, Fill, FillJoin, PointId, SurfaceId};
+use ductile_spec::{CurveId, CurveStretch, Document, Fill, FillJoin, FillSide, PointId, SurfaceId};
 use glam::DVec3;
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
@@ -28,16 +28,64 @@ pub(super) const COPLANAR: f64 = 0.342;
 pub(super) struct Given {
     /// What the ribbon can do about it: the plane turned until the Bézier curve lies in it.
     pub(super) sample: PlaneSample,
-    /// The normal of the plane itself.
+    /// The normal of the plane itself, before it is turned.
     normal: DVec3,
+}
+
+/// How a side is left in its middle, and with that how along all of it.
+#[derive(Clone, Copy, Debug)]
+struct Lean {
+    /// In radians.
+    turn: f64,
+    strength: f64,
+}
+
+impl Lean {
+    /// Whether there is anything but what is fair.
+    fn is_some(self) -> bool {
+        self.turn != 0.0 || self.strength != 1.0
+    }
+
+    /// How the planes are turned at a parameter, in radians, and how far the ribbon reaches across, 1 as is fair.
+    ///
+    /// With `f = 16 u² (1 - u)²`, which is 1 in the middle and at both ends begins with slope zero, the fair cross derivative `W`, across
+    /// the curve, becomes `(1 + (s - 1) f) ((1 + (cos a - 1) f) W + f sin a T × W)`, with `a` the turn, `s` the strength and `T` the unit
+    /// tangent. So it leaves corners and twist points as they are, and is a polynomial of a degree that is four higher where the
+    /// planes stay and where they turn only.
+    fn at(self, u: f64) -> (f64, f64) {
+        let f = 16.0 * (u * (1.0 - u)) * (u * (1.0 - u));
+        let (sin, cos) = libm::sincos(self.turn);
+        let (up, in_plane) = (f * sin, 1.0 + (cos - 1.0) * f);
+        (libm::atan2(up, in_plane), libm::hypot(up, in_plane) * (1.0 + (self.strength - 1.0) * f))
+    }
+}
+
+/// Whether ribbons of a fill are to be otherwise than fair, or follow some that are.
+pub(super) fn leans(document: &Document, id: SurfaceId, fill: &Fill) -> bool {
+    fill.style.join == FillJoin::Tangent && fill.sides.iter().any(|side| leans_at(document, id, side))
+}
+
+fn leans_at(document: &Document, id: SurfaceId, side: &FillSide) -> bool {
+    if side.leans() || document.turn_along(id, side) != 0.0 {
+        return true;
+    }
+    let Some((beside, curve)) = side.planes.zip(document.curves.get(&side.curve)) else { return false };
+    let is_there =
+        |there: &&FillSide| there.curve == side.curve && there.stretch(curve).0 == side.stretch(curve).0;
+    // The document is valid: planes never come, round about, from the fill itself.
+    let there = document.fills.get(&beside).and_then(|fill| fill.sides.iter().find(is_there));
+    there.is_some_and(|there| leans_at(document, beside, there))
 }
 
 impl Given {
     /// The angle between the plane and that of a ribbon there, in radians from 0 to π/2: what the curve misses of its direction is in
     /// it. π/2 where the ribbon has no plane.
     pub(super) fn angle(&self, ribbons: &RibbonLoop) -> f64 {
-        let own = ribbons.ribbons().get(self.sample.side).and_then(|ribbon| ribbon.normal(self.sample.u));
-        own.map_or(FRAC_PI_2, |own| libm::atan2(own.cross(self.normal).length(), own.dot(self.normal).abs()))
+        let Some(ribbon) = ribbons.ribbons().get(self.sample.side) else { return FRAC_PI_2 };
+        let along = ribbon.tangent(self.sample.u).normalize_or_zero();
+        let normal = PlaneSample { normal: self.normal, ..self.sample }.turned(along);
+        let own = ribbon.normal(self.sample.u);
+        own.map_or(FRAC_PI_2, |own| libm::atan2(own.cross(normal).length(), own.dot(normal).abs()))
     }
 }
 
@@ -57,11 +105,18 @@ pub(super) fn of(model: &Model, relaxer: Option<&Relaxer>, id: SurfaceId) -> Vec
             Some(beside) => of_rim(model, beside, drawn),
             None => agreed(model, id, at, drawn),
         };
+        let lean = Lean { turn: model.document.turn_along(id, side), strength: side.strength };
+        // What leans does so beside the planes that it has by itself.
+        let is_alone = side.planes.is_none() && normals.is_empty();
+        let is_own = is_alone && lean.is_some();
+        let normals = if is_own { fair(own, at) } else { normals };
         let on_side = |(u, normal): (f64, DVec3)| {
             // What runs along the curve says nothing of the plane.
             let along = curve_derivative(&drawn.fit.points, u).normalize_or_zero();
             let within = normal - along * along.dot(normal);
-            Given { sample: PlaneSample { side: at, u: drawn.parameter(u), normal: within }, normal }
+            let u = drawn.parameter(u);
+            let (turn, reach) = lean.at(u);
+            Given { sample: PlaneSample { side: at, u, normal: within, turn, reach, is_own }, normal }
         };
         planes.extend(normals.into_iter().map(on_side));
     }
@@ -130,24 +185,21 @@ fn of_fill(model: &Model, beside: SurfaceId, side: &Side) -> Vec<(f64, DVec3)> {
     places().filter_map(|u| Some((u, normal(u)?))).collect()
 }
 
-/// The other fill that has this stretch and names no planes for it either, if there is exactly one.
-fn partner(model: &Model, id: SurfaceId, stretch: CurveStretch) -> Option<SurfaceId> {
-    let has = |fill: &Fill| {
-        fill.style.join == FillJoin::Tangent
-            && fill.sides.iter().any(|side| {
-                let curve = model.document.curves.get(&side.curve);
-                side.planes.is_none() && curve.is_some_and(|curve| side.stretch(curve).0 == stretch)
-            })
+/// The normals that a side has by itself, by the parameter in the sense of the control curve.
+fn fair(own: &FillShape, at: usize) -> Vec<(f64, DVec3)> {
+    let Some((side, ribbon)) =
+        own.sides.get(at).zip(own.base.as_ref().and_then(|base| base.ribbons().get(at)))
+    else {
+        return Vec::new();
     };
-    let mut others = model.document.fills.iter().filter(|(other, fill)| **other != id && has(fill));
-    let (only, _) = others.next()?;
-    others.next().is_none().then_some(*only)
+    places().filter_map(|u| Some((u, ribbon.normal(side.parameter(u))?))).collect()
 }
 
 /// What two fills agree on along a stretch.
 fn agreed(model: &Model, id: SurfaceId, at: usize, side: &Side) -> Vec<(f64, DVec3)> {
     let stretch = side.drawn.stretch;
-    let found = partner(model, id, stretch).and_then(|other| {
+    let asked = model.document.fills.get(&id).and_then(|fill| fill.sides.get(at));
+    let found = asked.and_then(|asked| model.document.partner(id, asked)).and_then(|(other, ..)| {
         let (place, there) = side_on(model, other, stretch)?;
         Some((shape(model, other)?.base.as_ref()?, place, there))
     });

@@ -1,5 +1,9 @@
 //! Fills in a model: loops of free curves, holes in fair surfaces, patches beside patches.
 
+mod corners;
+mod lean;
+mod valence;
+
 use super::*;
 use crate::modeler::Modeler;
 use ductile_spec::{

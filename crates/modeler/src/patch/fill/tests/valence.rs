@@ -1,0 +1,104 @@
+//! Networks of free curves whose inner vertices have any number of curves: all their loops are filled, and every seam is reported.
+
+use super::*;
+use ductile_spec::SeamFigures;
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+fn fill_all(modeler: &mut Modeler) -> Vec<SeamFigures> {
+    edit(modeler, Edit::FillNetwork { curve: None, style: FillStyle::default() });
+    rest(modeler);
+    seams(modeler).seams
+}
+
+/// Fails unless patches meet without a gap and in one plane, and tells how well they do.
+fn check(name: &str, found: &[SeamFigures], count: usize) {
+    let worst = |of: fn(&SeamFigures) -> f64| found.iter().map(of).fold(0.0, f64::max);
+    let (gap, angle) = (worst(|seam| seam.gap), worst(|seam| seam.angle));
+    println!("{name}: {} seams, gap {gap:.1e}, angle {angle:.3}°", found.len());
+    assert_eq!(found.len(), count, "{name}");
+    assert!(gap < 1e-12 && angle < 0.5, "{name}: {found:?}");
+    assert!(found.iter().all(|seam| seam.without_normal == 0), "{name}: {found:?}");
+}
+
+/// Curves from a vertex in the middle of a dome to a rim of as many corners: as many patches with three sides.
+fn dome(spokes: u32) -> Modeler {
+    let mut modeler = Modeler::new();
+    let rim = ring(&mut modeler, spokes, 1.0, 0.05);
+    let hub = point(&mut modeler, [0.05, -0.03, 0.4]);
+    for k in 0..rim.len() {
+        arc(&mut modeler, hub, rim[k], DVec3::new(0.0, 0.0, 0.1));
+        let (one, other) = (rim[k], rim[(k + 1) % rim.len()]);
+        let at = |point: PointId| modeler.model().document.points[&point];
+        let out = (at(one) + at(other)) * DVec3::new(0.12, 0.12, 0.0);
+        arc(&mut modeler, one, other, out);
+    }
+    rest(&mut modeler);
+    modeler
+}
+
+/// A square whose halves are divided by curves from its lower to its upper side.
+fn divided(across: impl FnOnce(&mut Modeler, [PointId; 2], PointId)) -> Modeler {
+    let mut modeler = Modeler::new();
+    let places = [
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.15],
+        [2.0, 0.0, 0.1],
+        [2.0, 2.0, 0.0],
+        [1.0, 2.0, 0.15],
+        [0.0, 2.0, 0.1],
+    ];
+    let p: Vec<PointId> = places.into_iter().map(|at| point(&mut modeler, at)).collect();
+    let inner = point(&mut modeler, [1.1, 1.0, 0.3]);
+    for k in 0..6 {
+        arc(&mut modeler, p[k], p[(k + 1) % 6], DVec3::new(0.0, 0.0, 0.05));
+    }
+    across(&mut modeler, [p[1], p[4]], inner);
+    rest(&mut modeler);
+    modeler
+}
+
+#[test]
+fn a_vertex_of_two_curves_is_smooth_where_one_goes_on_as_the_other() {
+    let mut modeler = divided(|modeler, [from, to], inner| {
+        curve(modeler, [from, inner, to].map(Through::Point).to_vec());
+    });
+    let found = fill_all(&mut modeler);
+    assert_eq!(modeler.model().document.fills.len(), 2);
+    check("2 curves", &found, 1);
+    // Two curves that end there with one direction are no corner, and no side by themselves either: that is told.
+    let mut modeler = divided(|modeler, [from, to], inner| {
+        for (from, to) in [(from, inner), (inner, to)] {
+            let made = curve(modeler, vec![Through::Point(from), Through::Point(to)]);
+            edit(modeler, Edit::Tangent { curve: made, point: inner, direction: Some(DVec3::Y) });
+        }
+    });
+    let act = Edit::FillNetwork { curve: None, style: FillStyle::default() };
+    let refused = modeler.handle(Request::Edit(act)).refused.unwrap();
+    assert!(refused.reason.contains("turns by 0° at point 7"), "{}", refused.reason);
+}
+
+#[test]
+fn a_vertex_of_three_curves_joins_smoothly() {
+    check("3 curves", &fill_all(&mut dome(3)), 3);
+}
+
+#[test]
+fn a_vertex_of_four_curves_joins_smoothly() {
+    check("4 curves", &fill_all(&mut dome(4)), 4);
+}
+
+#[test]
+fn a_vertex_of_five_curves_joins_smoothly() {
+    check("5 curves", &fill_all(&mut dome(5)), 5);
+}
+
+#[test]
+fn a_vertex_of_six_curves_joins_smoothly() {
+    check("6 curves", &fill_all(&mut dome(6)), 6);
+}
+
+#[test]
+fn a_vertex_of_seven_curves_joins_smoothly() {
+    check("7 curves", &fill_all(&mut dome(7)), 7);
+}
