@@ -102,6 +102,7 @@ fn any_acts_leave_cages_with_surfaces_through_their_vertices() {
                 }
             }
         }
+        round.opens();
     }
     assert!(done > 500 && refused > 100, "{done} done, {refused} refused");
 }

@@ -38,7 +38,7 @@ fn open_at(factors: &[f64], examples: impl IntoIterator<Item = Example>) {
     }
 }
 
-/// All but the bored ball, which on coarse meshes may end in a crumple: as a thin plate, which it is at first, it swells.
+/// All but the bored ball, which is slow: as a thin plate, which it is at first, it swells.
 fn thin_plates() -> impl Iterator<Item = Example> {
     Example::BUILT.into_iter().filter(|example| *example != Example::BoredBall)
 }
@@ -53,7 +53,8 @@ fn constructions_open_at_coarser_densities() {
     open_at(&[1.2, 1.33], thin_plates());
 }
 
+/// Not at any coarser one: at 1.25 and 1.28 times its spacing, say, no way to begin resolves it, and it ends in a crumple.
 #[test]
-fn the_bored_ball_opens_at_finer_densities() {
-    open_at(&[0.75, 0.9], [Example::BoredBall]);
+fn the_bored_ball_opens_at_other_densities() {
+    open_at(&[0.75, 0.9, 1.2, 1.33], [Example::BoredBall]);
 }

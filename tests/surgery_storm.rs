@@ -2,8 +2,8 @@
 //!
 //! Every act is done or refused; a refused one changes nothing. What is done gives sound meshes, which follow their curves
 //! edge by edge, of just the kinds that the act promises (`kinds` reckons them from the triangles before it); its document
-//! can be opened again and means the same; undo and redo give texts to the letter. A sequence that breaks any of that is made
-//! as short as it can be and printed.
+//! means the same, and the last one of a sequence can be opened again; undo and redo give texts to the letter. A sequence that
+//! breaks any of that is made as short as it can be and printed.
 
 #![allow(clippy::unwrap_used, reason = "a failing test should stop where it fails")]
 #![allow(clippy::print_stdout, reason = "the figures are worth seeing with --nocapture")]
@@ -50,6 +50,7 @@ fn fault(document: &str, script: &[Request]) -> Option<String> {
         for request in script {
             round.ask(request);
         }
+        round.opens();
     };
     catch_unwind(AssertUnwindSafe(run)).err().map(|why| told(why.as_ref()))
 }
@@ -112,6 +113,7 @@ fn round(document: &str, seed: u64, tally: &mut Tally) -> Result<usize, (Vec<Req
                 *tally.reasons.entry(name_of(&reason)).or_default() += 1;
             }
         }
+        round.opens();
     };
     match catch_unwind(AssertUnwindSafe(run)) {
         Ok(()) => Ok(acts.max(1)),

@@ -1,14 +1,14 @@
 //! A sequence of requests on one document, with everything checked that each of them promises.
 //!
 //! An act is done or refused; a refused one changes nothing. What is done gives sound meshes, which follow their curves edge
-//! by edge, of just the kinds that the act promises; its document can be opened again and means the same; undo and redo give
+//! by edge, of just the kinds that the act promises; its document means the same; undo and redo give
 //! texts to the letter, also from before a modeler died. A drag is no act until it ends, and changes no topology.
 
 use crate::Bench;
 use crate::kinds::kinds;
 use crate::promise::promise;
-use ductile_modeler::Model;
-use ductile_spec::{Edit, PointId, Remembered, Reply, Request, Resume, from_text, to_compact_text};
+use ductile_modeler::{Model, ModelError};
+use ductile_spec::{Document, Edit, PointId, Remembered, Reply, Request, Resume, from_text, to_compact_text};
 
 /// A document and what was done to it.
 #[derive(Debug)]
@@ -139,7 +139,7 @@ impl Round {
         }
         assert!(matches!(how, Request::Drop), "put back is put back");
         assert_eq!(kinds(&before), kinds(self.bench.modeler.model()), "a drag changes no topology");
-        self.means_the_same();
+        self.means_the_same(Model::skins_of);
         self.commit();
         None
     }
@@ -178,7 +178,7 @@ impl Round {
         }
         follows(&self.bench);
         leaves_nothing_lying(&before, model, edit);
-        self.means_the_same();
+        self.means_the_same(Model::skins_of);
         self.bench.accept(Request::Undo);
         assert_eq!(self.bench.document, text, "undo to the letter");
         is_untouched(&before, self.bench.modeler.model());
@@ -188,12 +188,20 @@ impl Round {
         None
     }
 
-    /// The committed text comes round, and a modeler that opens it has surfaces of the same kinds.
-    fn means_the_same(&self) {
+    /// The document as it is now, grown as a modeler grows it that opens it, still means the same.
+    ///
+    /// # Panics
+    /// When it does not.
+    pub fn opens(&self) {
+        self.means_the_same(Model::from_document);
+    }
+
+    /// The committed text comes round, and what is built of it has surfaces of the same kinds.
+    fn means_the_same(&self, build: impl Fn(Document) -> Result<Model, ModelError>) {
         let text = &self.bench.document;
         let document = from_text(text).unwrap_or_else(|why| panic!("{why}: {text}"));
         assert_eq!(to_compact_text(&document), *text, "the text does not come round");
-        match Model::from_document(document) {
+        match build(document) {
             Ok(again) => {
                 let model = self.bench.modeler.model();
                 assert_eq!(kinds(&again), kinds(model), "the document means another surface: {text}");

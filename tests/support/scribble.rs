@@ -60,6 +60,7 @@ pub fn run_told(bytes: &[u8], mut tell: impl FnMut(&Request)) {
         tell(&request);
         round.ask(&request);
     }
+    round.opens();
 }
 
 fn request(dice: &mut Dice, model: &Model) -> Request {

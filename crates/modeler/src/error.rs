@@ -20,7 +20,7 @@ use thiserror::Error;
 pub(crate) use hole::HoleError;
 pub(crate) use overlay::ShadowError;
 use overlay::displaced;
-pub(crate) use rim::RimError;
+pub(crate) use rim::{RimError, TouchError};
 pub use trim::TrimError;
 
 /// Why a request was refused. The model is as it was before.
@@ -313,9 +313,9 @@ pub enum ModelError {
     /// A sweep needs two different curves.
     #[error("a sweep needs two different curves, or two stretches of one")]
     SweepToItself,
-    /// Two curves share a control point, so that a skin between them would be pinched there.
-    #[error("{0} and {1} share {2}: a skin between them would be pinched there")]
-    CurvesTouch(CurveId, CurveId, PointId),
+    /// There is no room between two curves or rims somewhere.
+    #[error(transparent)]
+    Touch(#[from] TouchError),
     /// A curve cannot lose the point.
     #[error("{curve} needs {point}: {why}")]
     NeededByCurve {

@@ -34,6 +34,9 @@ const FOLDED: f64 = -0.985;
 const AGREEING: f64 = 1.01;
 /// Meshes with more vertices are not grown in all ways: the first way that they resolve is taken.
 const LARGE: usize = 4000;
+/// Vertices of all ways tried together from which on no other is tried: a shape that no way resolves may be much larger each time
+/// than it should be, and must not keep everybody waiting.
+const ENOUGH: usize = 24_000;
 /// An angle of a triangle that nothing is to be said against: 33°.
 const BLUNT: f64 = 0.576;
 /// A flip must make an edge shorter by this part.
@@ -167,7 +170,7 @@ impl Ground<'_> {
         drop(plain);
         let mut best: Option<(Score, SurfaceShape)> = None;
         let mut failure = ModelError::NoSurface(self.id);
-        let mut resolved = Vec::new();
+        let (mut resolved, mut made) = (Vec::new(), 0);
         for start in STARTS {
             let mut shape = skin(start)?;
             let score = match self.finish(&mut shape) {
@@ -184,7 +187,8 @@ impl Ground<'_> {
             }
             let least = resolved.iter().copied().fold(f64::INFINITY, f64::min);
             let agreeing = resolved.iter().filter(|energy| **energy <= AGREEING * least).count();
-            if agreeing >= 2 || (agreeing == 1 && vertices > LARGE) {
+            made += vertices;
+            if agreeing >= 2 || (agreeing == 1 && vertices > LARGE) || made > ENOUGH {
                 break;
             }
         }

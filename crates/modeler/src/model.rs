@@ -55,7 +55,17 @@ impl Model {
     /// [`ModelError`] when the document cannot be built.
     pub fn from_document(document: Document) -> Result<Self, ModelError> {
         document.validate()?;
-        Self::build(Arc::new(document), 0)
+        Self::build(Arc::new(document), 0, Beginning::Grown)
+    }
+
+    /// The same with the linear skins over the skeletons, which nothing has relaxed: all that is to be known of the topology of
+    /// a document's surfaces, in a small part of the time.
+    ///
+    /// # Errors
+    /// [`ModelError`] when the document cannot be built.
+    pub fn skins_of(document: Document) -> Result<Self, ModelError> {
+        document.validate()?;
+        Self::build(Arc::new(document), 0, Beginning::Skin)
     }
 
     /// The document with the least skeletons that hold the topology and the controls of what its surfaces are now (thesis
@@ -77,16 +87,16 @@ impl Model {
     /// # Errors
     /// [`ModelError`] when the document cannot be built.
     pub(crate) fn reopened(&self) -> Result<Self, ModelError> {
-        Self::build(Arc::clone(&self.document), self.revisions)
+        Self::build(Arc::clone(&self.document), self.revisions, Beginning::Grown)
     }
 
-    fn build(document: Arc<Document>, revisions: u64) -> Result<Self, ModelError> {
+    fn build(document: Arc<Document>, revisions: u64, beginning: Beginning) -> Result<Self, ModelError> {
         let mut model = Self { document, revisions, ..Self::default() };
         for id in model.document.curves.keys().copied().collect::<Vec<_>>() {
             model.build_curve(id)?;
         }
         for id in model.document.surfaces.keys().copied().collect::<Vec<_>>() {
-            model.raise_surface(id, Beginning::Grown)?;
+            model.raise_surface(id, beginning)?;
         }
         let exact = model.document.cages.keys().chain(model.document.fills.keys());
         for id in exact.chain(model.document.meshes.keys()).copied().collect::<Vec<_>>() {

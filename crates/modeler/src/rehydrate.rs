@@ -80,11 +80,16 @@ fn curve_corners(
     let length = |k: usize| (corners[(k + 1) % count] - corners[k]).length();
     let finest = spacings.iter().copied().fold(f64::INFINITY, f64::min);
     check_budget(finest, (0..stretches).map(|k| length(k) / spacings[k]).sum(), NODE_BUDGET / 4)?;
-    let is_empty = |k: usize| length(k) <= LEAST_EXTENT * (1.0 + corners[k].abs().max_element());
+    let is_empty = |k: usize| !has_extent(length(k), corners[k].abs().max_element());
     if (0..stretches).any(is_empty) {
         return Err(ModelError::NoExtent(id.to_string()));
     }
     Ok((corners, stretches))
+}
+
+/// Whether a length is one, among coordinates of a size.
+pub(crate) fn has_extent(length: f64, size: f64) -> bool {
+    length > LEAST_EXTENT * (1.0 + size)
 }
 
 /// Whether a document with sound topology could be opened: every stretch of a curve has an extent, every surface

@@ -1,6 +1,8 @@
-//! Why a curve is no rim of a surface over a cage, or cannot be changed because it is one.
+//! Why a curve is no rim of a surface over a cage, or cannot be changed because it is one; and why nothing fits between two rims
+//! or curves.
 
 use ductile_spec::{CurveId, PointId, SurfaceId};
+use glam::DVec3;
 use thiserror::Error;
 
 /// What is wrong with a rim.
@@ -40,4 +42,27 @@ pub enum RimError {
         /// What to do instead.
         why: &'static str,
     },
+}
+
+/// Where two curves or rims have no room between them. What would be made there would be pinched.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum TouchError {
+    /// They share a control point.
+    #[error("{0} and {1} share {2}: a skin between them would be pinched there")]
+    Share(CurveId, CurveId, PointId),
+    /// They have control points at the same place.
+    #[error("{one} has {at} in common with {other}: a skin between them would be pinched there")]
+    Curves {
+        /// The first.
+        one: CurveId,
+        /// The second.
+        other: CurveId,
+        /// Where.
+        at: DVec3,
+    },
+    /// They lie on one another there.
+    #[error(
+        "the rims meet at {0}: a band between them would be pinched there. Join them without one, or move them apart"
+    )]
+    Rims(DVec3),
 }

@@ -35,14 +35,30 @@ pub enum TrimError {
     #[error("the angle of a join is above 0° and at most 180°; a smooth join has none")]
     BadJoinAngle,
     /// How the surfaces meet cannot be told.
-    #[error("{one} and {other} touch rather than cross: {why}")]
+    #[error("{one} and {other} touch rather than cross at {at}: move one of them a little")]
     Untold {
         /// The first.
         one: SurfaceId,
         /// The second.
         other: SurfaceId,
+        /// Where.
+        at: DVec3,
         /// Why.
         why: IntersectError,
+    },
+    /// A line in which they meet is too short to be a curve.
+    #[error(
+        "{one} and {other} only touch at {at}: they meet there in a line shorter than {least:.3}, too short to be cut along. Move them farther into one another, or apart"
+    )]
+    OnlyTouch {
+        /// The first.
+        one: SurfaceId,
+        /// The second.
+        other: SurfaceId,
+        /// Where.
+        at: DVec3,
+        /// How long it must be.
+        least: f64,
     },
     /// No line bounds both parts that are to stay.
     #[error("the parts of {0} and {1} that are to stay do not meet anywhere")]

@@ -1,8 +1,9 @@
 //! `sweep`: skins the space between two curves, closed or open, or between stretches of curves (thesis section 7.3.2).
 
-use crate::error::ModelError;
+use crate::error::{ModelError, TouchError};
 use crate::model::Model;
 use crate::operation::sheet::add;
+use crate::rehydrate::has_extent;
 use crate::skeleton::sweep_skeleton;
 use crate::surgery::dividing::{Part, divide_at};
 use ductile_spec::{CurveId, PointId, Surface};
@@ -20,7 +21,12 @@ pub(crate) fn sweep(model: &mut Model, sides: [Side; 2], reversed: bool) -> Resu
         return Err(ModelError::UnlikeCurves(from, to));
     }
     if let Some((shared, _)) = low.iter().find(|(id, _)| high.iter().any(|(other, _)| other == id)) {
-        return Err(ModelError::CurvesTouch(from, to, *shared));
+        return Err(TouchError::Share(from, to, *shared).into());
+    }
+    let size = low.iter().chain(&high).map(|(_, at)| at.abs().max_element()).fold(0.0, f64::max);
+    let is_apart = |at: DVec3| high.iter().all(|(_, other)| has_extent(at.distance(*other), size));
+    if let Some((_, at)) = low.iter().find(|(_, at)| !is_apart(*at)) {
+        return Err(TouchError::Curves { one: from, other: to, at: *at }.into());
     }
     let skeleton = sweep_skeleton((from, &low), (to, &high), closed, reversed);
     add(model, Surface::new(skeleton))

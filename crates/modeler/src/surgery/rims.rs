@@ -1,9 +1,10 @@
 //! Rims: boundary loops of surfaces, found by a place, joined by a band or laid on one another (thesis section 7.3.5).
 
-use crate::error::ModelError;
+use crate::error::{ModelError, TouchError};
 use crate::model::Model;
 use crate::operation::delete::forget_lost_curves;
 use crate::operation::{forget_lost, refresh_skeleton};
+use crate::rehydrate::has_extent;
 use crate::shape::{SurfaceShape, edit};
 use crate::surgery::joining::{Told, United, say, sew, split, unite};
 use ductile_mesh::{
@@ -66,6 +67,11 @@ pub(crate) fn band(
     let id = one.0;
     let is_handle = one.0 == other.0;
     let (told, mut first, mut second) = together(model, one, other)?;
+    if let Some(at) =
+        common_place(&model.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?.positions, &first, &second)
+    {
+        return Err(TouchError::Rims(at).into());
+    }
     for _ in 0..PATIENCE {
         let shape = model.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?;
         let sense = match (is_handle, reversed) {
@@ -100,6 +106,14 @@ pub(crate) fn band(
         }
     }
     Err(ModelError::NoBand(BridgeError::TooShort(first.len().min(second.len()))))
+}
+
+/// A place at which two rims have a vertex each.
+fn common_place(positions: &[DVec3], first: &Rim, second: &Rim) -> Option<DVec3> {
+    let at = |v: &VertexId| positions[v.index()];
+    let size = first.iter().chain(second).map(|v| at(v).abs().max_element()).fold(0.0, f64::max);
+    let meets = |here: &DVec3| second.iter().any(|w| !has_extent(at(w).distance(*here), size));
+    first.iter().map(at).find(meets)
 }
 
 /// The faces beside the first edge of a rim.

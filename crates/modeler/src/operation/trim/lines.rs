@@ -7,7 +7,7 @@ use crate::operation::s_loop::draw;
 use crate::surgery::following::follow;
 use crate::surgery::joining::{said, say};
 use crate::surgery::tracing::{Stop, rim_near};
-use ductile_mesh::{CommonLine, intersections};
+use ductile_mesh::{CommonLine, IntersectError, intersections};
 use ductile_spec::{CurveId, MeetingLine, SurfaceId};
 use glam::DVec3;
 
@@ -20,6 +20,9 @@ const MOST: usize = 24;
 const FEWEST_OPEN: usize = 3;
 /// Chords of the coarse line whose turning is measured: what the mesh's own zigzag does is averaged away.
 const CHORDS: usize = 30;
+/// Least length of a line, in edges of the finer surface: if it closes, and if it does not.
+const LEAST_LOOP: f64 = 2.0;
+const LEAST_CUT: f64 = 1.0;
 
 /// A curve in the place of a line in which two surfaces meet.
 #[derive(Clone, Copy, Debug)]
@@ -51,8 +54,34 @@ pub(crate) fn meeting(
 fn common(model: &Model, one: SurfaceId, other: SurfaceId) -> Result<Vec<CommonLine>, ModelError> {
     let [a, b] = [one, other].map(|id| model.surfaces.get(&id).ok_or(ModelError::NoSurface(id)));
     let (a, b) = (a?, b?);
-    intersections((&a.mesh, &a.positions), (&b.mesh, &b.positions))
-        .map_err(|why| TrimError::Untold { one, other, why }.into())
+    intersections((&a.mesh, &a.positions), (&b.mesh, &b.positions)).map_err(|why| {
+        let at = match why {
+            IntersectError::Tangent(f, _) | IntersectError::Unresolved(f, _) => {
+                a.mesh.face_vertices(f).iter().map(|v| a.positions[v.index()]).sum::<DVec3>() / 3.0
+            }
+            IntersectError::NotFinite(..) => DVec3::NAN,
+        };
+        TrimError::Untold { one, other, at, why }.into()
+    })
+}
+
+/// Refuses a line that is too short to be a curve on meshes like these: a hole of less than two edges, a cut of less than one.
+/// To leave it out would leave surfaces that run through one another there.
+fn check_length(
+    model: &Model,
+    [one, other]: [SurfaceId; 2],
+    line: &[DVec3],
+    closed: bool,
+) -> Result<(), ModelError> {
+    let spacing = model.spacing_of(one).min(model.spacing_of(other));
+    let least = if closed { LEAST_LOOP * spacing } else { LEAST_CUT * spacing };
+    let closing = closed.then(|| line[0].distance(line[line.len() - 1]));
+    let length = line.windows(2).map(|pair| pair[0].distance(pair[1])).chain(closing).sum::<f64>();
+    if length < least {
+        let at = line.iter().sum::<DVec3>() / line.len() as f64;
+        return Err(TrimError::OnlyTouch { one, other, at, least }.into());
+    }
+    Ok(())
 }
 
 /// Lays fair curves into both surfaces, in the place of all lines that may divide one of them: those that close, and those
@@ -69,6 +98,7 @@ pub(super) fn snapshots(
     let (mut sound, mut loose) = (Vec::new(), None);
     for line in lines {
         let points: Vec<DVec3> = line.points.iter().map(|point| point.position).collect();
+        check_length(model, [one, other], &points, line.is_closed)?;
         match host(model, [one, other], &points, line.is_closed) {
             Ok(host) => sound.push((points, line.is_closed, host)),
             Err(at) => loose = loose.or(Some(at)),
