@@ -3,10 +3,12 @@
 
 #![allow(clippy::unwrap_used, reason = "a failing test should stop where it fails")]
 
-use acceptance::Bench;
 use acceptance::kinds::kinds;
+use acceptance::round::Round;
+use acceptance::{Bench, shapes};
 use ductile_spec::{
     Border, CurveId, Edit, Objective, ObjectiveOf, On, PointId, Request, SpacingOf, SurfaceId, Through,
+    to_compact_text,
 };
 use glam::{DVec3, dvec3};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
@@ -216,4 +218,28 @@ fn cylinders_of_one_size_that_touch_where_they_cross_are_trimmed_all_the_same() 
     bench.rest(900);
     let left = kinds_of(&bench);
     assert!(left.len() == 2 && left.iter().all(|(_, rims, two_sided)| *rims >= 2 && *two_sided), "{left:?}");
+}
+
+/// Found by the storm: a piece so small that the curve which ran across it is a single edge from rim to rim.
+#[test]
+fn a_rim_that_a_curve_of_a_single_edge_ends_at_is_not_laid_on_another() {
+    let moebius = shapes::for_surgery().into_iter().nth(3).unwrap();
+    let mut round = Round::new(&to_compact_text(&moebius));
+    let along = [
+        dvec3(-0.9082774045718183, 1.5412405038868795, -0.001098031692393731),
+        dvec3(-0.9864440154469574, 1.7035561426687784, -0.00019422718802447576),
+        dvec3(-1.162084821244612, 1.7436438193975785, 0.0005043604594831095),
+        dvec3(-1.3029387127796483, 1.6313166958569127, 0.00047168050296478016),
+        dvec3(-1.302939836830417, 1.4511593871286503, -0.00026765838377153516),
+        dvec3(-1.1620873469637625, 1.338834021224542, -0.0011569189392485698),
+        dvec3(-0.9864460409164543, 1.37892388969028, -0.0015264698275825818),
+    ];
+    let edit = Edit::SLoop { surface: SurfaceId(1), along: along.to_vec(), closed: true };
+    assert_eq!(round.ask(&Request::Edit(edit)), None);
+    let border = Border::Region(on(1, dvec3(-1.35, 2.37, 0.0)));
+    assert_eq!(round.ask(&Request::Edit(Edit::Crease { border })), None);
+    assert_eq!(kinds_of(&round.bench), [(-1, 2, false), (1, 1, true)]);
+    let (from, to) = (on(1, dvec3(0.0, -0.04, 0.0)), on(2, dvec3(-0.92, 1.66, 0.0)));
+    let why = round.ask(&Request::Edit(Edit::Glue { from, to, skirt: false, reversed: true })).unwrap();
+    assert!(why.contains("curve 3 ends at the rim of surface"), "{why}");
 }

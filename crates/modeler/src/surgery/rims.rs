@@ -5,8 +5,9 @@ use crate::model::Model;
 use crate::operation::delete::forget_lost_curves;
 use crate::operation::{forget_lost, refresh_skeleton};
 use crate::rehydrate::has_extent;
-use crate::shape::{SurfaceShape, edit};
+use crate::shape::{EmbeddedCurve, SurfaceShape, edit};
 use crate::surgery::joining::{Told, United, say, sew, split, unite};
+use crate::surgery::opening::edges_of;
 use ductile_mesh::{
     Bridge, BridgeError, FaceId, Mesh, Seam, Sense, VertexId, boundary_loops, propagate_orientation,
 };
@@ -199,13 +200,19 @@ fn sew_loops(model: &mut Model, id: SurfaceId, kept: Rim, gone: Rim) -> Result<(
 
 /// Lets a rim of a surface go from its curves; refuses if a curve of the inside ends there.
 fn free(model: &mut Model, id: SurfaceId, rim: &Rim) -> Result<(), ModelError> {
-    let shape = edit(model.surfaces.get_mut(&id).ok_or(ModelError::NoSurface(id))?);
+    let shape = model.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?;
     let is_on = |v: &VertexId| rim.contains(v);
-    let ends_there =
-        |e: &&crate::shape::EmbeddedCurve| e.vertices.iter().any(is_on) && !e.vertices.iter().all(is_on);
+    // A curve of a single edge may have both ends on the rim and yet lead through the inside.
+    let lies_along = |e: &EmbeddedCurve| {
+        let closed = model.curves.get(&e.curve).is_some_and(|curve| curve.closed);
+        let edges = edges_of(&shape.mesh, &e.vertices, closed).unwrap_or_default();
+        e.vertices.iter().all(is_on) && edges.iter().all(|edge| shape.mesh.is_boundary_edge(*edge))
+    };
+    let ends_there = |e: &&EmbeddedCurve| e.vertices.iter().any(is_on) && !lies_along(e);
     if let Some(embedded) = shape.embeddings.iter().find(ends_there) {
         return Err(ModelError::EndsAtRim { curve: embedded.curve, surface: id });
     }
+    let shape = edit(model.surfaces.get_mut(&id).ok_or(ModelError::NoSurface(id))?);
     shape.embeddings.retain(|e| !e.vertices.iter().any(is_on));
     shape.pins.retain(|pin| !is_on(&pin.vertex));
     for v in rim {
@@ -218,7 +225,7 @@ fn free(model: &mut Model, id: SurfaceId, rim: &Rim) -> Result<(), ModelError> {
 }
 
 fn edges_of_rim(mesh: &Mesh, rim: &Rim) -> Vec<ductile_mesh::EdgeId> {
-    crate::surgery::opening::edges_of(mesh, rim, true).unwrap_or_default()
+    edges_of(mesh, rim, true).unwrap_or_default()
 }
 
 /// Splits the longest edge of a rim.
