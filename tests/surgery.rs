@@ -430,6 +430,20 @@ fn an_open_curve_inside_is_cut_to_a_slit() {
 }
 
 #[test]
+fn a_crease_across_a_closed_curve_at_one_place_is_refused_and_a_split_is_not() {
+    let mut bench = disc();
+    act(&mut bench, s_loop(1, circle(0.4, 4, 0.0), true));
+    let line = vec![dvec3(0.1, 0.0, 0.0), dvec3(0.25, 0.05, 0.0), dvec3(0.7, 0.0, 0.0)];
+    act(&mut bench, s_loop(1, line, false));
+    bench.rest(600);
+    let why = refusal(&mut bench, Edit::Crease { border: Border::Curve(CurveId(3)) });
+    assert!(why.contains("curve 2 is closed and would be cut across"), "{why}");
+    let kinds = act(&mut bench, Edit::Split { border: Border::Curve(CurveId(3)) });
+    assert_eq!(kinds, [(1, 0, 2, true)]);
+    bench.rest(600);
+}
+
+#[test]
 fn crossing_curves_share_a_hub() {
     let mut bench = disc();
     act(&mut bench, s_loop(1, circle(0.5, 6, 0.0), true));

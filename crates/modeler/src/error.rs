@@ -443,6 +443,11 @@ pub enum ModelError {
         "{0} runs round a Möbius strip: the region along it has one side, so it cannot be creased. It can be split"
     )]
     OneSided(CurveId),
+    /// A closed curve would begin and end at one control point.
+    #[error(
+        "{0} is closed and would be cut across at a single point, where both banks of a crease stay together: split instead"
+    )]
+    CutAcrossOnce(CurveId),
     /// Surfaces that together have one side, as three that make up a Möbius strip do, have no outside in common.
     #[error("{0} and what meets it have one side together: there is no outside that all of them could have")]
     NoCommonSide(SurfaceId),

@@ -45,10 +45,14 @@ pub(crate) fn settle(
     let before = Arc::clone(model.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?);
     let surface = model.document.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?.clone();
     let told = told(&before, &surface.regions);
-    if banks == Banks::Joint
-        && let Some(run) = opening.runs.iter().find(|run| run.is_one_sided())
-    {
-        return Err(ModelError::OneSided(run.curve));
+    if banks == Banks::Joint {
+        // Both ends would have to be the same control point.
+        if let Some(run) = opening.runs.iter().find(|run| run.is_cut_across_once()) {
+            return Err(ModelError::CutAcrossOnce(run.curve));
+        }
+        if let Some(run) = opening.runs.iter().find(|run| run.is_one_sided()) {
+            return Err(ModelError::OneSided(run.curve));
+        }
     }
     let twins = if banks == Banks::Apart { copy_points(model, &mut opening) } else { BTreeMap::new() };
     let followed = match banks {

@@ -32,7 +32,11 @@ impl Run {
     /// Whether the curve was cut along and has a single bank.
     pub(crate) fn is_one_sided(&self) -> bool {
         self.edge_count() > self.whole.1
-            || (self.whole.0 && !self.closed && self.edge_count() == self.whole.1)
+    }
+
+    /// Whether the curve is closed and was cut across at one place: it begins and ends there.
+    pub(crate) fn is_cut_across_once(&self) -> bool {
+        self.whole.0 && !self.closed && self.edge_count() == self.whole.1
     }
 
     pub(crate) fn edge_count(&self) -> usize {
