@@ -76,6 +76,13 @@ fn fill_line(fill: &FillFigures) -> String {
     let mut line = format!(
         "{surface} fills {sides} sides with degree {degree}: curves met to {curve_deviation:.3e}, planes to {plane_deviation:.4}°"
     );
+    if let Some(side) = fill.turned_out {
+        // As above.
+        let _ = write!(
+            line,
+            "; it folds over itself where side {side} begins, since the hole turns outwards there"
+        );
+    }
     if let Some(why) = &fill.stuck {
         // As above.
         let _ = write!(line, "; it does not follow: {why}");

@@ -53,6 +53,10 @@ pub struct FillFigures {
     pub curve_deviation: f64,
     /// Largest angle between its tangent plane and one that it was given, in degrees; 0 where none was given.
     pub plane_deviation: f64,
+    /// The side (from 1) at whose beginning the hole turns outwards, if there is one: the tangents span the plane there with the other
+    /// side up, and the patch folds over itself.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub turned_out: Option<u32>,
     /// Why it does not follow its curves at the moment, if it cannot.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stuck: Option<String>,

@@ -174,13 +174,14 @@ impl Page {
             Some(figures) => match &figures.stuck {
                 Some(why) => format!("It does not follow its curves at the moment: {why}."),
                 None => format!(
-                    "{} sides of degree {}, {} control points. Off its curves by at most {}, off its planes by at most {}°.{}",
+                    "{} sides of degree {}, {} control points. Off its curves by at most {}, off its planes by at most {}°.{}{}",
                     figures.sides,
                     figures.degree,
                     figures.control_points,
                     few(figures.curve_deviation),
                     few(figures.plane_deviation),
-                    if figures.plane_deviation > VISIBLE { WHAT_HELPS } else { "" }
+                    if figures.plane_deviation > VISIBLE { WHAT_HELPS } else { "" },
+                    turned_out(figures.turned_out)
                 ),
             },
         };
@@ -224,4 +225,11 @@ pub(crate) fn few(value: f64) -> String {
     } else {
         format!("{value:.1e}")
     }
+}
+
+/// What is wrong where a hole turns outwards at the beginning of a side, and what helps.
+fn turned_out(side: Option<u32>) -> String {
+    side.map_or_else(String::new, |side| {
+        format!(" Where side {side} begins the hole turns outwards, and the patch folds over itself: divide the hole by a curve from there.")
+    })
 }

@@ -123,6 +123,9 @@ impl FillShape {
             control_points: count(built.map_or(0, |built| built.patch.points().len())),
             curve_deviation: self.sides.iter().map(|side| side.fit.deviation).fold(0.0, f64::max),
             plane_deviation: built.map_or(0.0, |built| built.angle.to_degrees()),
+            turned_out: built
+                .and_then(|built| turned_out(built.ribbons.ribbons()))
+                .map(|side| count(side + 1)),
             stuck: self.failure.map(|failure| failure.to_string()),
         }
     }
@@ -202,6 +205,23 @@ fn check_corners(fill: &Fill, rows: &[Vec<DVec3>]) -> Result<(), FillError> {
         }
     }
     Ok(())
+}
+
+/// Cosine of the angle between the plane at a corner and that of the whole loop from which on the corner turns outwards: 120°. Loops
+/// that are far from flat have corners that lean.
+const TURNED_OUT: f64 = -0.5;
+
+/// The first side at whose beginning the loop turns the other way than as a whole.
+fn turned_out(ribbons: &[Ribbon]) -> Option<usize> {
+    let places: Vec<DVec3> = ribbons.iter().flat_map(|ribbon| &ribbon.row0[1..]).copied().collect();
+    let next = places.iter().cycle().skip(1);
+    let area = places.iter().zip(next).map(|(a, b)| (*a - places[0]).cross(*b - places[0])).sum::<DVec3>();
+    let up = area.normalize_or_zero();
+    (0..ribbons.len()).find(|&side| {
+        let before = &ribbons[(side + ribbons.len() - 1) % ribbons.len()].row0;
+        let (own, [.., from, to]) = (&ribbons[side].row0, &before[..]) else { return false };
+        (*to - *from).cross(own[1] - own[0]).normalize_or_zero().dot(up) < TURNED_OUT
+    })
 }
 
 fn built(

@@ -78,6 +78,32 @@ fn a_vertex_of_two_curves_is_smooth_where_one_goes_on_as_the_other() {
     assert!(refused.reason.contains("turns by 0° at point 7"), "{}", refused.reason);
 }
 
+/// On one side of two curves that meet at an angle the hole turns outwards, and no patch with four sides can follow.
+#[test]
+fn a_patch_that_folds_where_its_hole_turns_outwards_is_told() {
+    let mut modeler = divided(|modeler, [from, to], inner| {
+        for (from, to) in [(from, inner), (inner, to)] {
+            arc(modeler, from, to, DVec3::new(0.25, 0.0, 0.0));
+        }
+    });
+    fill_all(&mut modeler);
+    let turned: Vec<_> =
+        seams(&mut modeler).fills.iter().map(|fill| (fill.surface, fill.turned_out)).collect();
+    let [(SurfaceId(1), Some(side)), (SurfaceId(2), None)] = turned[..] else { panic!("{turned:?}") };
+    let begins = modeler.model().document.fills[&SurfaceId(1)].sides[side as usize - 1].from;
+    assert_eq!(begins, PointId(7));
+    // The normal turns over there.
+    let patch = &modeler.model().patches[&SurfaceId(1)];
+    let is_down = |normal: &&DVec3| normal.z < -0.5;
+    assert!(patch.normals().iter().filter(is_down).count() > 3);
+    // Divided from there, the hole has no such corner.
+    for spokes in [3, 5, 7] {
+        let mut modeler = dome(spokes);
+        fill_all(&mut modeler);
+        assert!(seams(&mut modeler).fills.iter().all(|fill| fill.turned_out.is_none()), "{spokes}");
+    }
+}
+
 #[test]
 fn a_vertex_of_three_curves_joins_smoothly() {
     check("3 curves", &fill_all(&mut dome(3)), 3);
