@@ -23,9 +23,11 @@ const MOST: [usize; 2] = [64, 15];
 pub(super) fn hole(text: &str) -> Option<Result<RibbonHole, RibbonFileError>> {
     let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
     let (first, line) = lines.next()?;
-    let sizes: Vec<usize> =
+    let sizes: Vec<u64> =
         line.split_whitespace().map(|word| word.parse().ok()).collect::<Option<Vec<_>>>()?;
+    // What is too large for a pointer of 32 bits is refused as what is too large at all.
     let [sides, degree] = sizes[..] else { return None };
+    let [sides, degree] = [sides, degree].map(|size| usize::try_from(size).unwrap_or(usize::MAX));
     Some(read(lines, first + 1, sides, degree))
 }
 
