@@ -26,10 +26,10 @@ pub(crate) fn family() -> Vec<(&'static str, Mesh)> {
 /// close), and the number of regions.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Nature {
-    kind: Summary,
+    pub(crate) kind: Summary,
     pub(crate) points: Vec<(VertexId, SourceTag)>,
     curves: Vec<(SourceTag, usize, i64)>,
-    regions: usize,
+    pub(crate) regions: usize,
 }
 
 pub(crate) fn nature(mesh: &Mesh) -> Nature {

@@ -8,7 +8,7 @@ use glam::DVec3;
 use thiserror::Error;
 
 use super::channel::{Crossing, Line, channel};
-use crate::{EdgeId, Mesh, VertexId};
+use crate::{EdgeId, Mesh, SourceTag, VertexId};
 
 /// Why two vertices cannot be joined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
@@ -25,6 +25,15 @@ pub enum InsertError {
     /// An edge in the way cannot be flipped, since its vertices opposite are joined elsewhere. Splits always work.
     #[error("{0:?} is in the way and cannot be flipped")]
     Stuck(EdgeId),
+    /// A curve has two vertices, a closed one three.
+    #[error("a curve cannot have only {0} vertices")]
+    TooShort(usize),
+    /// A curve that is inserted passes every vertex once.
+    #[error("the curve passes {0:?} twice")]
+    Repeated(VertexId),
+    /// Two vertices that follow one another are joined by an edge of a curve already.
+    #[error("{0:?} belongs to another curve")]
+    Taken(EdgeId),
 }
 
 /// A vertex that a curve made where it crosses an edge.
@@ -94,6 +103,47 @@ impl Mesh {
         let edge = trial.edge_between(from, to).ok_or(InsertError::NoWay(from, to))?;
         *self = trial;
         Ok(edge)
+    }
+
+    /// Makes a curve that has exactly these vertices, in order, flipping what is in the way, and gives its edges, tagged.
+    ///
+    /// Each leg is laid as [`Mesh::insert_edge`] lays one; the curves that are there, and the legs that are laid already, are
+    /// not crossed. A closed curve joins the last vertex with the first. Refused, it changes nothing.
+    ///
+    /// # Errors
+    /// See [`InsertError`].
+    pub fn insert_curve(
+        &mut self,
+        vertices: &[VertexId],
+        is_closed: bool,
+        positions: &[DVec3],
+        tag: SourceTag,
+    ) -> Result<Vec<EdgeId>, InsertError> {
+        if vertices.len() < if is_closed { 3 } else { 2 } {
+            return Err(InsertError::TooShort(vertices.len()));
+        }
+        let mut is_passed = vec![false; self.vertex_slots()];
+        for &v in vertices {
+            if !self.has_vertex(v) {
+                return Err(InsertError::NoVertex(v));
+            }
+            if core::mem::replace(&mut is_passed[v.index()], true) {
+                return Err(InsertError::Repeated(v));
+            }
+        }
+        let mut trial = self.clone();
+        let mut edges = Vec::with_capacity(vertices.len());
+        let next = vertices.iter().skip(1).chain(is_closed.then_some(&vertices[0]));
+        for (&from, &to) in vertices.iter().zip(next) {
+            let edge = trial.insert_edge(from, to, positions)?;
+            if trial.edge_source(edge).is_some() {
+                return Err(InsertError::Taken(edge));
+            }
+            trial.set_edge_source(edge, Some(tag));
+            edges.push(edge);
+        }
+        *self = trial;
+        Ok(edges)
     }
 
     /// Joins two vertices by a chain of edges, splitting what is in the way; gives the vertices made, in order.

@@ -69,6 +69,81 @@ fn flips_respect_curves_and_splits_cross_them() {
 }
 
 #[test]
+fn of_the_edges_in_the_way_the_one_goes_first_whose_flip_leaves_the_flattest_pair() {
+    // Two edges lead from the left to the right bank; which of them goes first decides the diagonal of the right bank.
+    let [south, north, left, right, beyond] = [0, 1, 2, 3, 4].map(VertexId);
+    let triangles = [[0, 3, 2], [3, 4, 2], [4, 1, 2]];
+    let plan = |heights: [f64; 2]| {
+        let [near, far] = heights;
+        [(0.0, -1.0, 0.0), (0.0, 1.0, 0.0), (-1.0, 0.0, 0.0), (1.0, -0.4, near), (1.0, 0.4, far)].map(DVec3::from)
+    };
+    let bend = |places: &[DVec3; 5], [a, b]: [VertexId; 2], [c, d]: [VertexId; 2]| {
+        let at = |v: VertexId| places[v.index()];
+        let normal = |p, q, r| (at(q) - at(p)).cross(at(r) - at(p)).normalize();
+        normal(a, b, c).angle_between(normal(b, a, d))
+    };
+    for heights in [[0.0, 0.5], [0.5, 0.0], [-0.3, 0.4], [0.4, -0.3]] {
+        let places = plan(heights);
+        let mut mesh = Mesh::from_triangles(5, &triangles).unwrap();
+        mesh.insert_edge(south, north, &places).unwrap();
+        // Over the southern edge first: the pair at south to beyond. Over the northern first: the pair at right to north.
+        let first = bend(&places, [south, beyond], [left, right]);
+        let second = bend(&places, [right, north], [left, beyond]);
+        assert!((first - second).abs() > 0.02, "{heights:?}: {first} and {second} must differ for this to tell anything");
+        assert_eq!(mesh.are_neighbours(south, beyond), first < second, "{heights:?}: {first} {second}");
+        assert_eq!(mesh.are_neighbours(right, north), second < first, "{heights:?}: {first} {second}");
+    }
+}
+
+/// The edges that join these vertices in order bear the tag, and no other edge does.
+fn is_curve(mesh: &Mesh, vertices: &[VertexId], is_closed: bool, tag: SourceTag) -> bool {
+    let next = vertices.iter().skip(1).chain(is_closed.then_some(&vertices[0]));
+    let legs = vertices.iter().zip(next).map(|(&a, &b)| mesh.edge_between(a, b));
+    let mut legs: Vec<_> = legs.flatten().collect();
+    legs.sort_unstable();
+    let mut tagged: Vec<_> = mesh.edges().filter(|&e| mesh.edge_source(e) == Some(tag)).collect();
+    tagged.sort_unstable();
+    legs.len() == vertices.len() - usize::from(!is_closed) && legs == tagged
+}
+
+#[test]
+fn a_curve_by_flips_has_exactly_the_given_vertices() {
+    let (mut mesh, positions, at) = square();
+    let before = nature(&mesh);
+    let ring = [at(1, 1), at(4, 2), at(5, 5), at(2, 4)];
+    let edges = mesh.insert_curve(&ring, true, &positions, SourceTag(7)).unwrap();
+    assert_eq!(edges.len(), 4);
+    assert!(is_curve(&mesh, &ring, true, SourceTag(7)));
+    // An open one beside it, and one that has no way round it.
+    let line = [at(6, 0), at(5, 3), at(6, 6)];
+    mesh.insert_curve(&line, false, &positions, SourceTag(8)).unwrap();
+    assert!(is_curve(&mesh, &line, false, SourceTag(8)) && is_curve(&mesh, &ring, true, SourceTag(7)));
+    let after = nature(&mesh);
+    // The ring parts a disc from the square, the line from rim to rim parts what is left.
+    assert_eq!((validate(&mesh), after.kind, after.regions), (Ok(()), before.kind, before.regions + 2));
+    let (vertices, triangles) = (mesh.vertex_count(), mesh.to_triangles());
+    let within = mesh.vertices().find(|&v| v == at(3, 3)).unwrap();
+    let out = [at(0, 0), within];
+    let refused = mesh.insert_curve(&out, false, &positions, SourceTag(9));
+    assert_eq!(refused, Err(InsertError::NoWay(out[0], within)), "the ring lies between them");
+    let taken = mesh.insert_curve(&[at(0, 3), ring[0], ring[1]], false, &positions, SourceTag(9));
+    assert_eq!(taken, Err(InsertError::Taken(edges[0])));
+    assert_eq!((mesh.vertex_count(), mesh.to_triangles()), (vertices, triangles), "a refusal changes nothing");
+    assert!(mesh.edges().all(|e| mesh.edge_source(e) != Some(SourceTag(9))), "nor does it tag anything");
+}
+
+#[test]
+fn a_curve_of_too_few_or_repeated_vertices_is_refused() {
+    let (mut mesh, positions, at) = square();
+    let tag = SourceTag(1);
+    let mut refusal = |list: &[VertexId], is_closed| mesh.insert_curve(list, is_closed, &positions, tag).unwrap_err();
+    assert_eq!(refusal(&[], false), InsertError::TooShort(0));
+    assert_eq!(refusal(&[at(0, 0), at(2, 2)], true), InsertError::TooShort(2));
+    assert_eq!(refusal(&[at(0, 0), at(2, 2), at(0, 0)], false), InsertError::Repeated(at(0, 0)));
+    assert_eq!(refusal(&[at(0, 0), VertexId(99)], false), InsertError::NoVertex(VertexId(99)));
+}
+
+#[test]
 fn nonsense_is_refused() {
     let (mut mesh, positions) = primitive::tetrahedron();
     let v = VertexId(0);
