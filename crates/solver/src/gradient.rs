@@ -139,13 +139,14 @@ impl<T: Real> Backward<T> {
     pub(crate) fn through_angles(&mut self, ring: &Ring<T>) {
         let (degree, gaps) = (ring.degree, ring.gaps());
         let zero = T::splat(0.0);
-        // theta_j = s cum_j, gap_j = s angle_j, s = target / total
+        // theta_j = start + s cum_j, gap_j = s angle_j, s = target / total, start = (π - target) / 2
         let (mut scale_bar, mut cumulative) = (zero, zero);
         for j in 0..degree {
             scale_bar += self.theta[j] * cumulative + self.gap[j] * ring.spokes[j].angle;
             cumulative += ring.spokes[j].angle;
         }
-        let total_bar = if ring.is_total_true { -(scale_bar * ring.scale / ring.total) } else { zero };
+        let turned = || self.theta[..degree].iter().fold(zero, |sum, &theta| sum + theta);
+        let total_bar = if ring.is_total_true { ring.total_bar(scale_bar, turned) } else { zero };
         // Angle j turns every later chord: run backwards over the sum of their theta_bar.
         let mut later = zero;
         for j in (0..degree).rev() {

@@ -4,6 +4,10 @@
 //! angle_{j-1})` with target 2π inside and π on the boundary, where the ring starts and ends on the boundary, so
 //! those two neighbours lie on the ± u axis. The radius is the chord; it is exact on spheres and must not be
 //! corrected by the metric.
+//!
+//! Beyond the recipe: where a boundary turns back, as at the end of a slit, the angles are let be what they are
+//! ([`open_target`]). Squeezed into half a plane, a flat ring of 2π has a Jacobian of a half at best and of a tenth where its
+//! chords differ, which the barrier takes for a fold.
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
 
@@ -61,6 +65,12 @@ pub(crate) struct Ring<T> {
     pub(crate) total: T,
     /// `target / total`.
     pub(crate) scale: T,
+    /// The scaled angle of the first chord: 0, or less where the boundary turns back, so that `v` halves the ring.
+    pub(crate) start: T,
+    /// How the target grows with the total; 0 but where the boundary turns back.
+    pub(crate) target_slope: T,
+    /// Whether it does in any lane.
+    pub(crate) turns_back: bool,
     /// Whether `total` is the true sum (not the guard), in all lanes.
     pub(crate) is_total_true: bool,
 }
@@ -77,9 +87,36 @@ impl<T: Real> Default for Ring<T> {
             h: zero,
             total: zero,
             scale: zero,
+            start: zero,
+            target_slope: zero,
+            turns_back: false,
             is_total_true: false,
         }
     }
+}
+
+/// Up to this total an open ring fills half a plane; a right angle later it is what it is.
+const BEND_FROM: f64 = 1.25 * PI;
+/// From here on no more is added than another quarter of π: a crumpled ring must not wind round and round.
+const BEND_TO: f64 = 2.25 * PI;
+
+/// What the angles of an open ring are scaled to fill, and how that grows with their sum.
+///
+/// π up to 5/4 π, the sum itself from 7/4 π to 9/4 π, at most 5/2 π; a quadratic or cubic between, so that the slope is continuous.
+fn open_target<T: Real>(total: T) -> (T, T) {
+    let (zero, one, width) = (T::splat(0.0), T::splat(1.0), T::splat(0.5 * PI));
+    let clamp = |x: T, most: T| {
+        let x = T::choose(x.less(zero), zero, x);
+        T::choose(x.less(most), x, most)
+    };
+    let rise = clamp((total - T::splat(BEND_FROM)) / width, one);
+    let own = clamp(total - T::splat(1.75 * PI), width);
+    let fall = clamp((total - T::splat(BEND_TO)) / width, one);
+    // The cubic through (0, 0) and (1, 3/4 π) with the slopes 0 and π/2.
+    let lifted = rise * rise * (T::splat(1.75 * PI) - T::splat(PI) * rise);
+    let target = T::splat(PI) + lifted + own + width * fall * (one - T::splat(0.5) * fall);
+    let while_rising = rise * (T::splat(3.5 * PI) - T::splat(3.0 * PI) * rise) / width;
+    (target, T::choose(rise.less(one), while_rising, one - fall))
 }
 
 /// Number of angles in a ring: a closed ring has one per spoke, an open ring one less.
@@ -131,7 +168,7 @@ impl<T: Real> Ring<T> {
         let inverse_h = T::splat(1.0) / self.h;
         let mut cumulative = T::splat(0.0);
         for (spoke, even) in self.spokes.iter_mut().zip(even_ring::spokes(degree, gaps)) {
-            (spoke.sin, spoke.cos) = angle::direction_near(self.scale * cumulative, even);
+            (spoke.sin, spoke.cos) = angle::direction_near(self.start + self.scale * cumulative, even);
             let radius = spoke.r * inverse_h;
             (spoke.u, spoke.v) = (radius * spoke.cos, radius * spoke.sin);
             cumulative += spoke.angle;
@@ -170,8 +207,34 @@ impl<T: Real> Ring<T> {
         let is_true = T::splat(MIN_TOTAL).less(total);
         self.is_total_true = T::all(is_true);
         self.total = T::choose(is_true, total, T::splat(MIN_TOTAL));
-        self.scale = T::splat(if self.is_boundary { PI } else { TAU }) / self.total;
+        self.aim();
         is_plane_everywhere
+    }
+
+    /// What the angles are scaled to fill.
+    #[inline(always)]
+    fn aim(&mut self) {
+        self.turns_back = self.is_boundary && !T::all(self.total.less(T::splat(BEND_FROM)));
+        if self.turns_back {
+            let (target, slope) = open_target(self.total);
+            self.scale = target / self.total;
+            self.start = T::splat(0.5) * (T::splat(PI) - target);
+            self.target_slope = slope;
+        } else {
+            self.scale = T::splat(if self.is_boundary { PI } else { TAU }) / self.total;
+            self.start = T::splat(0.0);
+        }
+    }
+
+    /// The derivative with respect to the sum of the angles, by those with respect to the scale and to the sum of all directions.
+    #[inline(always)]
+    pub(crate) fn total_bar(&self, scale_bar: T, turned: impl FnOnce() -> T) -> T {
+        let shrunk = -(scale_bar * self.scale / self.total);
+        if self.turns_back {
+            shrunk + self.target_slope * (scale_bar / self.total - T::splat(0.5) * turned())
+        } else {
+            shrunk
+        }
     }
 
     /// Coordinates of a neighbour, divided by `h`.
@@ -189,6 +252,37 @@ impl<T: Real> Ring<T> {
             [u, v, half * u * u, zero, zero]
         } else {
             [u, v, half * u * u, T::splat(FRAC_1_SQRT_2) * u * v, half * v * v]
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    #[test]
+    fn an_open_ring_is_scaled_to_half_a_plane_until_it_turns_back() {
+        for (total, target, slope) in [(0.2, 1.0, 0.0), (1.0, 1.0, 0.0), (1.25, 1.0, 0.0), (1.75, 1.75, 1.0)]
+            .into_iter()
+            .chain([(2.0, 2.0, 1.0), (2.25, 2.25, 1.0), (2.75, 2.5, 0.0), (9.0, 2.5, 0.0)])
+        {
+            let found = open_target(total * PI);
+            assert!(
+                (found.0 - target * PI).abs() < 1e-14 && (found.1 - slope).abs() < 1e-14,
+                "{total}: {found:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn the_slope_of_the_target_is_its_derivative() {
+        for k in 1..600 {
+            let (total, step) = (0.005 * f64::from(k) * PI + 1e-3, 1e-6);
+            let difference = (open_target(total + step).0 - open_target(total - step).0) / (2.0 * step);
+            let slope = open_target(total).1;
+            assert!((difference - slope).abs() < 1e-8 && slope >= 0.0, "{total}: {difference} {slope}");
         }
     }
 }

@@ -137,13 +137,14 @@ impl<T: Real> Ordinary<T> {
     fn through_angles(&mut self, ring: &Ring<T>) {
         let (degree, gaps) = (ring.degree, ring.gaps());
         let zero = T::splat(0.0);
-        // theta_j = s cum_j, gap_j = s angle_j, s = target / total
+        // theta_j = start + s cum_j, gap_j = s angle_j, s = target / total, start = (π - target) / 2
         let (mut scale_bar, mut cumulative) = (zero, zero);
         for (end, spoke) in self.ends[..degree].iter().zip(&ring.spokes) {
             scale_bar += end.theta * cumulative + end.gap * spoke.angle;
             cumulative += spoke.angle;
         }
-        let total_bar = -(scale_bar * ring.scale / ring.total);
+        let turned = || self.ends[..degree].iter().fold(zero, |sum, end| sum + end.theta);
+        let total_bar = ring.total_bar(scale_bar, turned);
         // Angle j turns every later chord: run backwards over the sum of their theta_bar.
         let mut later = if ring.is_boundary { self.ends[degree - 1].theta } else { zero };
         for j in (0..gaps).rev() {

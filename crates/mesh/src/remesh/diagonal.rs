@@ -13,6 +13,9 @@ use glam::DVec3;
 use crate::measure::angle_between;
 use crate::{EdgeId, Mesh, VertexId};
 
+/// Cosine of the angle up to which triangles count as lying in one plane when a flip unfolds them, some 26°.
+const FLAT: f64 = 0.9;
+
 /// An inner edge `ab` with its opposite vertices `c` and `d`, face `abc` wound as in the mesh.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Diagonal {
@@ -56,13 +59,25 @@ impl Diagonal {
 
     /// Whether the surface is flat enough here for the flip to make sense: no dihedral angle of more than
     /// 90° across either diagonal, none made across the sides (or made worse), and the new triangles not
-    /// turned over in the plane of the old ones.
+    /// turned over in the plane of the old ones. Or else the two lie on one another, and the flip unfolds them.
     pub(super) fn is_flat_enough(&self, mesh: &Mesh, positions: &[DVec3]) -> bool {
         let [a, b, c, d] = self.points(positions);
-        let normal = |p: DVec3, q: DVec3, r: DVec3| (q - p).cross(r - p).normalize_or_zero();
+        let area = |p: DVec3, q: DVec3, r: DVec3| (q - p).cross(r - p);
+        let normal = |p: DVec3, q: DVec3, r: DVec3| area(p, q, r).normalize_or_zero();
         let (old_c, old_d) = (normal(a, b, c), normal(b, a, d));
         let (new_a, new_b) = (normal(c, a, d), normal(d, b, c));
-        if old_c.dot(old_d) < 0.0 || new_a.dot(new_b) < 0.0 || !is_convex([a, b, c, d], old_c + old_d) {
+        let is_fold = old_c.dot(old_d) < 0.0;
+        let is_larger = area(a, b, c).length_squared() > area(b, a, d).length_squared();
+        // Of two triangles that lie on one another, the smaller one is the one that was turned over.
+        let upright = match (is_fold, is_larger) {
+            (false, _) => old_c + old_d,
+            (true, true) => old_c,
+            (true, false) => old_d,
+        };
+        if new_a.dot(new_b) < 0.0 || !is_convex([a, b, c, d], upright) {
+            return false;
+        }
+        if is_fold && (old_c.dot(old_d) > -FLAT || new_a.dot(upright) < FLAT || new_b.dot(upright) < FLAT) {
             return false;
         }
         let sides = [(b, c, old_c, new_b), (c, a, old_c, new_a), (a, d, old_d, new_a), (d, b, old_d, new_b)];
@@ -70,7 +85,8 @@ impl Diagonal {
             beyond.is_none_or(|v| {
                 let outside = normal(q, p, positions[v.index()]);
                 let bend = outside.dot(after);
-                bend >= 0.0 || bend >= outside.dot(before)
+                // A neighbour that was turned over, too, is unfolded in its turn.
+                bend >= 0.0 || bend >= outside.dot(before) || (is_fold && outside.dot(upright) < -FLAT)
             })
         })
     }

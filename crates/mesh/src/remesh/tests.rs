@@ -258,6 +258,41 @@ fn sharp_creases_and_curves_are_not_flipped() {
 }
 
 #[test]
+fn a_triangle_that_a_moved_rim_turned_over_is_unfolded() {
+    // The rim runs from 4 over 0, 2 and 1 to 5; 2 has come up above the edge from 0 to 1, which should lie inside.
+    let triangles = [[0, 2, 1], [0, 1, 3], [0, 3, 6], [1, 7, 3], [4, 0, 6], [1, 5, 7], [6, 3, 8], [3, 7, 8]];
+    let mut mesh = Mesh::from_triangles(9, &triangles).unwrap();
+    let mut positions: Vec<DVec3> = [
+        (-1.0, 0.0),
+        (1.0, 0.0),
+        (0.0, 0.1),
+        (0.0, 1.0),
+        (-3.0, 0.0),
+        (3.0, 0.0),
+        (-2.0, 1.0),
+        (2.0, 1.0),
+        (0.0, 2.0),
+    ]
+    .map(|(x, y)| DVec3::new(x, y, 0.0))
+    .to_vec();
+    let is_upright = |mesh: &Mesh, positions: &[DVec3]| {
+        mesh.faces().all(|f| {
+            let [a, b, c] = mesh.face_vertices(f).map(|v| positions[v.index()]);
+            (b - a).cross(c - a).z > 0.0
+        })
+    };
+    assert!(!is_upright(&mesh, &positions));
+    flip_pass(&mut mesh, &positions, &FREE, Seeds::All, &Limits::default());
+    assert!(is_upright(&mesh, &positions) && mesh.are_neighbours(VertexId(2), VertexId(3)));
+    assert_eq!(validate(&mesh), Ok(()));
+    // Two real sides of a fold that stand at an angle are left alone, though one lies above the other.
+    let mut sharp = Mesh::from_triangles(9, &triangles).unwrap();
+    positions[2] = DVec3::new(0.0, 0.1, 0.3);
+    flip_pass(&mut sharp, &positions, &FREE, Seeds::All, &Limits::default());
+    assert!(sharp.are_neighbours(VertexId(0), VertexId(1)));
+}
+
+#[test]
 fn poor_vertices_are_mended() {
     let (mut mesh, mut positions) = primitive::icosphere(2);
     for f in mesh.faces().step_by(9).collect::<Vec<_>>() {

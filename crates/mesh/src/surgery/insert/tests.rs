@@ -75,7 +75,8 @@ fn of_the_edges_in_the_way_the_one_goes_first_whose_flip_leaves_the_flattest_pai
     let triangles = [[0, 3, 2], [3, 4, 2], [4, 1, 2]];
     let plan = |heights: [f64; 2]| {
         let [near, far] = heights;
-        [(0.0, -1.0, 0.0), (0.0, 1.0, 0.0), (-1.0, 0.0, 0.0), (1.0, -0.4, near), (1.0, 0.4, far)].map(DVec3::from)
+        [(0.0, -1.0, 0.0), (0.0, 1.0, 0.0), (-1.0, 0.0, 0.0), (1.0, -0.4, near), (1.0, 0.4, far)]
+            .map(DVec3::from)
     };
     let bend = |places: &[DVec3; 5], [a, b]: [VertexId; 2], [c, d]: [VertexId; 2]| {
         let at = |v: VertexId| places[v.index()];
@@ -89,7 +90,10 @@ fn of_the_edges_in_the_way_the_one_goes_first_whose_flip_leaves_the_flattest_pai
         // Over the southern edge first: the pair at south to beyond. Over the northern first: the pair at right to north.
         let first = bend(&places, [south, beyond], [left, right]);
         let second = bend(&places, [right, north], [left, beyond]);
-        assert!((first - second).abs() > 0.02, "{heights:?}: {first} and {second} must differ for this to tell anything");
+        assert!(
+            (first - second).abs() > 0.02,
+            "{heights:?}: {first} and {second} must differ for this to tell anything"
+        );
         assert_eq!(mesh.are_neighbours(south, beyond), first < second, "{heights:?}: {first} {second}");
         assert_eq!(mesh.are_neighbours(right, north), second < first, "{heights:?}: {first} {second}");
     }
@@ -128,7 +132,11 @@ fn a_curve_by_flips_has_exactly_the_given_vertices() {
     assert_eq!(refused, Err(InsertError::NoWay(out[0], within)), "the ring lies between them");
     let taken = mesh.insert_curve(&[at(0, 3), ring[0], ring[1]], false, &positions, SourceTag(9));
     assert_eq!(taken, Err(InsertError::Taken(edges[0])));
-    assert_eq!((mesh.vertex_count(), mesh.to_triangles()), (vertices, triangles), "a refusal changes nothing");
+    assert_eq!(
+        (mesh.vertex_count(), mesh.to_triangles()),
+        (vertices, triangles),
+        "a refusal changes nothing"
+    );
     assert!(mesh.edges().all(|e| mesh.edge_source(e) != Some(SourceTag(9))), "nor does it tag anything");
 }
 
@@ -136,7 +144,8 @@ fn a_curve_by_flips_has_exactly_the_given_vertices() {
 fn a_curve_of_too_few_or_repeated_vertices_is_refused() {
     let (mut mesh, positions, at) = square();
     let tag = SourceTag(1);
-    let mut refusal = |list: &[VertexId], is_closed| mesh.insert_curve(list, is_closed, &positions, tag).unwrap_err();
+    let mut refusal =
+        |list: &[VertexId], is_closed| mesh.insert_curve(list, is_closed, &positions, tag).unwrap_err();
     assert_eq!(refusal(&[], false), InsertError::TooShort(0));
     assert_eq!(refusal(&[at(0, 0), at(2, 2)], true), InsertError::TooShort(2));
     assert_eq!(refusal(&[at(0, 0), at(2, 2), at(0, 0)], false), InsertError::Repeated(at(0, 0)));
