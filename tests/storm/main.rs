@@ -274,12 +274,12 @@ fn malicious_drags_break_no_raised_disc() {
 
 #[test]
 fn malicious_drags_break_no_cylinder() {
-    storms("cylinder", &example(Example::Cylinder, 0.3), Objective::ThinPlate, 25, &[3]);
+    storms("cylinder", &example(Example::Cylinder, 0.4), Objective::ThinPlate, 25, &[3]);
 }
 
 #[test]
 fn malicious_drags_break_no_fair_ball() {
-    storms("ball", &example(Example::Ball, 0.35), Objective::Fair, 20, &[4]);
+    storms("ball", &example(Example::Ball, 0.5), Objective::Fair, 20, &[4]);
 }
 
 /// Few, and on a coarse strip: what a drag leaves of its long free rim takes seconds to grow again.
