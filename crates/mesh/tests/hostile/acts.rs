@@ -5,6 +5,8 @@ use ductile_mesh::remesh::Ledger;
 use ductile_mesh::{
     Bridge, BridgeError, CutError, EdgeId, FaceId, GlueError, Place, Seam, Sense, nearest_place,
 };
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
 
 const NOBODY: usize = 9999;
 

@@ -2,6 +2,8 @@
 
 use super::*;
 use ductile_mesh::{IntersectError, Place, SurfaceTree, intersections, nearest_place, refine_pair};
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
 
 /// The table, and sizes whose squares, or whose sums of three, are no numbers.
 fn hostile_and_beyond(mesh: &Mesh, good: &[DVec3]) -> Vec<(&'static str, Vec<DVec3>)> {

@@ -2,6 +2,8 @@
 
 use super::*;
 use ductile_mesh::io::ply::{PlyError, read_polygons};
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
 
 const HEADS: [&str; 3] = ["ascii", "binary_little_endian", "binary_big_endian"];
 

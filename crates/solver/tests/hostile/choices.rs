@@ -3,6 +3,8 @@
 
 use super::*;
 use ductile_solver::{Objective, Objectives, Sampling, Settings};
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
 
 const ALL: [Objective; 4] = [Objective::ThinPlate, Objective::Fair, Objective::Neutral, Objective::Membrane];
 

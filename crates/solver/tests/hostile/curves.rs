@@ -4,6 +4,8 @@ use super::*;
 use ductile_solver::{
     CurveSettings, CurveSolver, Network, Objective, Spoke, Strand, resample, respace, respace_graded,
 };
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
 
 /// A wavy closed or open curve of so many nodes, every fourth of them fixed, and what may have become of it.
 fn table() -> Vec<(&'static str, Expected, Vec<DVec3>)> {
