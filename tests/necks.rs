@@ -159,6 +159,23 @@ fn a_waist_that_is_drawn_tight_gets_its_edges_and_gives_them_back() {
     assert!(shape(&bench).wanted.is_empty() && edges_round(&bench) == uniform);
 }
 
+/// Batches keep time: one in three steps. What the curve inside asks for at once is not left to the next of them.
+#[test]
+fn a_waist_that_is_drawn_in_does_not_wait_for_the_next_batch() {
+    let mut bench = opened(&waisted(0.3, HALF), SPACING);
+    bench.rest(600);
+    tighten(&mut bench, 0.06);
+    let mut beats = [0_u32; 3];
+    for step in 0..60 {
+        let before = shape(&bench).revision;
+        bench.step(None);
+        beats[step % 3] += u32::from(shape(&bench).revision != before);
+    }
+    beats.sort_unstable();
+    println!("batches that changed the mesh, by beat: {beats:?}");
+    assert!(beats[1] > 0 && beats[2] > beats[1], "{beats:?}");
+}
+
 /// What rests is what its document opens to, to the bit.
 #[test]
 fn a_neck_rests_as_its_document_opens() {

@@ -9,8 +9,8 @@ from npm is called by `npm/manifold.mjs`. `--only rust` leaves the others out an
 
 Each peer runs in a process of its own with a time limit, so that one that crashes or hangs is a line in the table and nothing
 more. The linear solve is biharmonic, with the boundary and one inner node held; ours is the non-linear one, to rest and with the
-mesh improved on the way, so it is given for orientation only. The torus is made here: the command line writes no torus, and it
-does not read meshes, so there is no line of ours for it; the quality of our triangles is that of the mesh it wrote.
+mesh improved on the way, so it is given for orientation only. The other meshes are those of our benches, written by `rust`, with ours
+timed beside them: the uneven torus of figure e, the even one of figure f, and the tube of 96,000 nodes of figure b.
 """
 
 import argparse
@@ -50,18 +50,6 @@ def write_obj(path, vertices, faces):
     pathlib.Path(path).write_text("\n".join(lines) + "\n")
 
 
-def torus(around=200, across=50, major=2.0, minor=1.0):
-    """Triangles up to three times longer one way than the other."""
-    u, v = np.meshgrid(np.arange(around), np.arange(across), indexing="ij")
-    a, b = 2 * np.pi * u / around, 2 * np.pi * v / across
-    ring = major + minor * np.cos(b)
-    vertices = np.stack([ring * np.cos(a), ring * np.sin(a), minor * np.sin(b)], -1).reshape(-1, 3)
-    node = lambda i, j: (i % around) * across + j % across
-    p, q, r, s = node(u, v), node(u + 1, v), node(u + 1, v + 1), node(u, v + 1)
-    faces = np.concatenate([np.stack([p, q, r], -1).reshape(-1, 3), np.stack([p, r, s], -1).reshape(-1, 3)])
-    return vertices, faces.astype(np.int64)
-
-
 def edges(faces):
     """Every edge once, and how many faces it has."""
     sides = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
@@ -97,23 +85,27 @@ def quality(vertices, faces):
     }
 
 
-def held(vertices, faces):
-    """Boundary and highest node, and where they are."""
-    nodes = np.append(boundary(faces), np.argmax(vertices[:, 2])).astype(np.int64)
+def held(path, vertices, faces):
+    """The nodes that a file beside the mesh names, or else boundary and highest node; and where they are."""
+    named = pathlib.Path(path).with_suffix(".held")
+    if named.exists():
+        nodes = np.array(named.read_text().split(), dtype=np.int64)
+    else:
+        nodes = np.append(boundary(faces), np.argmax(vertices[:, 2])).astype(np.int64)
     return nodes, vertices[nodes]
 
 
-def solve_igl(vertices, faces):
+def solve_igl(vertices, faces, path, _):
     import igl
 
-    nodes, places = held(vertices, faces)
+    nodes, places = held(path, vertices, faces)
     return lambda: igl.harmonic(vertices, faces, nodes, np.ascontiguousarray(places), 2)
 
 
-def solve_gpytoolbox(vertices, faces):
+def solve_gpytoolbox(vertices, faces, path, _):
     import gpytoolbox
 
-    nodes, places = held(vertices, faces)
+    nodes, places = held(path, vertices, faces)
 
     def solve():
         energy = gpytoolbox.biharmonic_energy(vertices, faces, bc="mixedfem_zero_neumann")
@@ -122,12 +114,12 @@ def solve_gpytoolbox(vertices, faces):
     return solve
 
 
-def solve_scipy(vertices, faces):
+def solve_scipy(vertices, faces, path, _):
     import igl
     from scipy.sparse import diags
     from scipy.sparse.linalg import splu
 
-    nodes, places = held(vertices, faces)
+    nodes, places = held(path, vertices, faces)
     free = np.setdiff1d(np.arange(len(vertices)), nodes)
 
     def solve():
@@ -142,53 +134,56 @@ def solve_scipy(vertices, faces):
     return solve
 
 
-def mean_edge(vertices, faces):
-    found, _ = edges(faces)
-    return float(np.linalg.norm(vertices[found[:, 0]] - vertices[found[:, 1]], axis=1).mean())
+ROUNDS = 10  # of a remeshing from scratch; a batch is one
 
 
-def remesh_pymeshlab(vertices, faces):
+def remesh_pymeshlab(vertices, faces, _, length, rounds=ROUNDS):
     import pymeshlab
 
     def remesh():
         meshes = pymeshlab.MeshSet()
         meshes.add_mesh(pymeshlab.Mesh(vertices, faces))
-        length = pymeshlab.PureValue(mean_edge(vertices, faces))
-        meshes.meshing_isotropic_explicit_remeshing(iterations=10, targetlen=length)
+        meshes.meshing_isotropic_explicit_remeshing(iterations=rounds, targetlen=pymeshlab.PureValue(length))
         return meshes.current_mesh().vertex_matrix(), meshes.current_mesh().face_matrix().astype(np.int64)
 
     return remesh
 
 
-def remesh_gpytoolbox(vertices, faces):
+def remesh_gpytoolbox(vertices, faces, _, length, rounds=ROUNDS):
     import gpytoolbox
 
-    return lambda: gpytoolbox.remesh_botsch(vertices, faces.astype(np.int32), i=10, h=mean_edge(vertices, faces))
+    return lambda: gpytoolbox.remesh_botsch(vertices, faces.astype(np.int32), i=rounds, h=length)
 
 
-def remesh_cgal(vertices, faces):
+def remesh_cgal(vertices, faces, _, length, rounds=ROUNDS):
     from compas_cgal.meshing import trimesh_remesh
 
-    return lambda: trimesh_remesh((vertices, faces.astype(np.int32)), mean_edge(vertices, faces), 10)
+    return lambda: trimesh_remesh((vertices, faces.astype(np.int32)), length, rounds)
 
 
+def once(remesh):
+    return lambda *given: remesh(*given, rounds=1)
+
+
+REMESHERS = {"pymeshlab": remesh_pymeshlab, "gpytoolbox remesh_botsch": remesh_gpytoolbox, "compas_cgal": remesh_cgal}
 WORK = {
     "solve": {"igl harmonic, k = 2": solve_igl, "igl matrices, scipy splu": solve_scipy, "gpytoolbox": solve_gpytoolbox},
-    "remesh": {"pymeshlab": remesh_pymeshlab, "gpytoolbox remesh_botsch": remesh_gpytoolbox, "compas_cgal": remesh_cgal},
+    "remesh": REMESHERS,
+    "batch": {name: once(remesh) for name, remesh in REMESHERS.items()},
 }
 
 
-def one(kind, name, path):
+def one(kind, name, path, length):
     """The work of one peer, in its own process: prints its figures as JSON."""
     vertices, faces = read_obj(path)
-    work = WORK[kind][name](vertices, faces)
+    work = WORK[kind][name](vertices, faces, path, float(length))
     seconds = []
-    for _ in range(REPEATS if kind == "solve" else 1):
+    for _ in range(REPEATS):
         start = time.perf_counter()
         found = work()
         seconds.append(time.perf_counter() - start)
     figures = {"seconds": float(np.median(seconds))}
-    if kind == "remesh":
+    if kind != "solve":
         new_vertices, new_faces = np.asarray(found[0], dtype=float), np.asarray(found[1], dtype=np.int64)
         figures |= quality(new_vertices, new_faces)
         figures["finite"] = bool(np.isfinite(new_vertices).all())
@@ -197,8 +192,8 @@ def one(kind, name, path):
     print(json.dumps(figures))
 
 
-def run(kind, name, path):
-    command = [sys.executable, __file__, "--one", kind, name, str(path)]
+def run(kind, name, path, length=0.0):
+    command = [sys.executable, __file__, "--one", kind, name, str(path), str(length)]
     try:
         done = subprocess.run(command, capture_output=True, text=True, timeout=LIMIT)
     except subprocess.TimeoutExpired:
@@ -236,12 +231,21 @@ SPACINGS = [0.072, 0.024, 0.0172]  # of about 1,000, 10,000 and 15,000 nodes; wh
 MOVED = 0.37  # how far the torus is moved to meet itself
 
 
-def beside(program, folder):
-    """The peers in Rust and from npm, and ours beside them; each prints lines of a table."""
+def built():
+    """The program of the peers in Rust."""
     target = TOP / "target" / "peers-rust"
     build = ["cargo", "build", "--quiet", "--release", "--locked", "--target-dir", str(target)]
     subprocess.run(build, check=True, cwd=HERE / "rust")
-    peers = target / "release" / "ductile-peers"
+    return target / "release" / "ductile-peers"
+
+
+def told(*command):
+    return subprocess.run(list(map(str, command)), check=True, capture_output=True, text=True).stdout
+
+
+def beside(program, folder):
+    """The peers in Rust and from npm, and ours beside them; each prints lines of a table."""
+    peers = built()
     ring = pathlib.Path(folder, "uneven.obj")
     print("\nFactoring and solving the plate of the raised disc, and our steps on it:\n\n| mesh | what | time |\n| --- | --- | --- |")
     for spacing in SPACINGS:
@@ -252,7 +256,7 @@ def beside(program, folder):
         subprocess.run([peers, "plate", disc], check=True)
     print("\nThe uneven torus of 400 x 25:\n\n| what | time | result |\n| --- | --- | --- |", flush=True)
     subprocess.run([peers, "remesh"], check=True)
-    subprocess.run([peers, "torus", ring], check=True)
+    told(peers, "torus", ring)
     subprocess.run([peers, "meet", ring, str(MOVED)], check=True)
     done = subprocess.run(["node", "manifold.mjs", str(ring), str(MOVED)], cwd=HERE / "npm")
     if done.returncode != 0:
@@ -262,7 +266,7 @@ def beside(program, folder):
 def main():
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("--ductile", help="the program, if it is built already")
-    arguments.add_argument("--one", nargs=3, help=argparse.SUPPRESS)
+    arguments.add_argument("--one", nargs=4, help=argparse.SUPPRESS)
     arguments.add_argument("--only", choices=["python", "rust"], help="leave the other peers out")
     options = arguments.parse_args()
     if options.one:
@@ -276,23 +280,52 @@ def main():
     if np is None:
         sys.exit("the peers from Python need the virtual environment")
     with tempfile.TemporaryDirectory() as folder:
-        disc, ring = pathlib.Path(folder, "disc.obj"), pathlib.Path(folder, "torus.obj")
-        report = ductile(options.ductile, HERE / "disc.ductile.json", disc)
-        write_obj(ring, *torus())
-        print(f"load at the start: {os.getloadavg()[0]:.1f}\n")
-        shape = quality(*read_obj(disc))
-        print(f"Raised disc of {shape['nodes']} nodes, one linear biharmonic solve (median of {REPEATS}):\n")
-        print("| peer | time |\n| --- | --- |")
+        python(options.ductile, pathlib.Path(folder))
+
+
+def ratio(ours, figures):
+    return "" if isinstance(figures, str) else f"{ours / figures['seconds']:.3f}"
+
+
+def python(program, folder):
+    """The peers from Python on meshes of ours, each with what ours takes on the same mesh in the same minutes."""
+    disc, ring, even, tube = [folder / name for name in ["disc.obj", "torus.obj", "even.obj", "tube.obj"]]
+    peers = built()
+    report = ductile(program, HERE / "disc.ductile.json", disc)
+    length = float(told(peers, "torus", ring))
+    print(f"load at the start: {os.getloadavg()[0]:.1f}\n")
+    shape = quality(*read_obj(disc))
+    steps = [float(row.split("|")[3].split()[0]) / 1e3 for row in told(peers, "plate", disc).splitlines() if "one non" in row or "a frame" in row]
+    frames = json.loads(told(peers, "tube", tube, tube.with_suffix(".held")))
+    for title, mesh, ours in [
+        (f"Raised disc of {shape['nodes']} nodes", disc, {"a step": steps[0], "a frame, predictor and step": steps[1]}),
+        (f"Tube of 96,240 nodes, {frames['asleep']} of them asleep later", tube, {"the first frame": frames["first"], "a later frame": frames["later"]}),
+    ]:
+        print(f"\n{title}, one linear biharmonic solve (median of {REPEATS}; ours: least of 15):\n")
+        print("| peer | time | " + " | ".join(f"{name} of ours : theirs" for name in ours) + " |\n" + "| --- " * (2 + len(ours)) + "|")
         for name in WORK["solve"]:
-            figures = run("solve", name, disc)
-            print(f"| {name} | {figures if isinstance(figures, str) else '%.3f s' % figures['seconds']} |", flush=True)
-        print(f"| ductile: opening, and to rest in {report['steps']} non-linear steps | {report['seconds']:.3f} s |")
-        print("\nTriangles, and remeshing an anisotropic torus to its mean edge in ten rounds:\n")
-        print("| mesh | time | " + " | ".join(QUALITY) + " |\n" + "| --- " * (2 + len(QUALITY)) + "|")
-        print(line("disc as ductile wrote it", shape))
-        print(line("torus before", quality(*read_obj(ring))))
-        for name in WORK["remesh"]:
-            print(line(name, run("remesh", name, ring)), flush=True)
+            figures = run("solve", name, mesh)
+            time_of = figures if isinstance(figures, str) else "%.3f s" % figures["seconds"]
+            print(f"| {name} | {time_of} | " + " | ".join(ratio(own, figures) for own in ours.values()) + " |", flush=True)
+        for name, seconds in ours.items():
+            print(f"| ductile: {name} | {seconds:.4f} s |" + " |" * len(ours))
+    print(f"\nOpening the disc and bringing it to rest in {report['steps']} non-linear steps took {report['seconds']:.3f} s.")
+    rows = [row for row in told(peers, "remesh").splitlines() if "ductile" in row]
+    ours = float(rows[0].split("|")[2].split()[0]) / 1e3
+    batch = json.loads(told(peers, "even", even))
+    print("\nTriangles, and remeshing to our spacing: the uneven torus of 400 x 25 in ten rounds, then one round on the even one:\n")
+    print("| mesh | time | " + " | ".join(QUALITY) + " | ours : theirs |\n" + "| --- " * (3 + len(QUALITY)) + "|")
+    print(line("disc as ductile wrote it", shape) + " |")
+    print(line("torus of 400 x 25 before", quality(*read_obj(ring))) + " |")
+    for name in WORK["remesh"]:
+        figures = run("remesh", name, ring, length)
+        print(line(name, figures), ratio(ours, figures), "|", flush=True)
+    print(rows[0])
+    print(line("even torus, one vertex in 200 moved", quality(*read_obj(even))) + " |")
+    for name in WORK["batch"]:
+        figures = run("batch", name, even, length)
+        print(line(name + ", one round", figures), ratio(batch["seconds"], figures), "|", flush=True)
+    print(f"| ductile, one batch of {batch['edits']} edits | {batch['seconds']:.5f} s |" + " |" * (len(QUALITY) + 1))
 
 
 if __name__ == "__main__":

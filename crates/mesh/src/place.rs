@@ -153,7 +153,7 @@ impl Place {
 }
 
 /// The place of the surface that is nearest to a point; among equals that of the lowest face. `None` where no face has finite
-/// positions, or the point is not finite.
+/// positions (and a finite sum of them), the point is not finite, or the squares of all distances are no numbers.
 ///
 /// It looks at every face. Who asks often builds a [`SurfaceTree`](crate::SurfaceTree).
 #[must_use]
@@ -163,6 +163,10 @@ pub fn nearest_place(mesh: &Mesh, positions: &[DVec3], at: DVec3) -> Option<Plac
         let [Some(&a), Some(&b), Some(&c)] = mesh.face_vertices(f).map(|v| positions.get(v.index())) else {
             continue;
         };
+        // As a tree has it: what overflows is no place.
+        if !(a + b + c).is_finite() {
+            continue;
+        }
         let weights = nearest_weights(at, [a, b, c]);
         let distance = (a * weights[0] + b * weights[1] + c * weights[2]).distance_squared(at);
         if distance.is_finite() && best.is_none_or(|(least, ..)| distance < least) {

@@ -117,7 +117,7 @@ pub struct ClosestPair {
 }
 
 impl SurfaceTree {
-    /// The tree of all faces whose corners have finite positions.
+    /// The tree of all faces whose corners have finite positions, and a finite sum of them.
     #[must_use]
     pub fn new(mesh: &Mesh, positions: &[DVec3]) -> Self {
         Self::of_faces(mesh, positions, |_| true)
@@ -153,7 +153,8 @@ impl SurfaceTree {
         self.order.is_empty()
     }
 
-    /// The nearest place to a point, and where that lies. `None` for an empty tree or a point that is not finite.
+    /// The nearest place to a point, and where that lies. `None` for an empty tree, a point that is not finite, or one so far
+    /// away that the square of the distance is no number.
     ///
     /// The mesh must be the one that the tree was made for.
     #[must_use]
@@ -174,7 +175,8 @@ impl SurfaceTree {
                     let distance = mix(self.corners[k], weights).distance_squared(at);
                     // Among equals the lowest face, whatever the tree looks like.
                     let is_lower = || distance == best.0 && self.order[k] < self.order[best.1];
-                    if distance < best.0 || is_lower() {
+                    // A square that overflows is no distance: the first best is none either, and has no face.
+                    if distance < best.0 || distance.is_finite() && is_lower() {
                         best = (distance, k, weights);
                     }
                 }

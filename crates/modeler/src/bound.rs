@@ -20,6 +20,8 @@ use std::sync::Arc;
 const RESOLVED: f64 = 0.7;
 /// An edge longer than this many spacings is worn. (At rest edges are split from 1.35 on.)
 const STRETCHED: f64 = 1.8;
+/// An edge longer than this many spacings is about to break: what it spans is no longer the shape, however fast the hand.
+const BREAKING: f64 = 2.5;
 
 /// What the controls ask of the nodes that follow them.
 #[derive(Clone, Debug, Default)]
@@ -241,6 +243,12 @@ impl BoundSurface {
     /// does not resolve.
     pub(crate) fn is_worn(&self, spacing: f64) -> bool {
         self.solver.longest_edge() > STRETCHED * spacing || self.solver.jacobians().any(|j| j < RESOLVED)
+    }
+
+    /// Whether the mesh is stretched so far that it cannot even wait for a fast hand. What J says does not count: a fold may
+    /// pass with the next frame, and a mesh stretched evenly has none.
+    pub(crate) fn is_breaking(&self, spacing: f64) -> bool {
+        self.solver.longest_edge() > BREAKING * spacing
     }
 
     /// How many nodes have a ring that the mesh does not resolve.

@@ -7,7 +7,7 @@
 
 use crate::error::ModelError;
 use crate::handle::{self, direction};
-use crate::model::Model;
+use crate::model::{Making, Model};
 use crate::operation::{insert, kept_position, pin};
 use crate::patch::caged;
 use crate::relax::Relaxer;
@@ -129,6 +129,12 @@ impl Grab {
         model.curves.clone_from(&self.home.curves);
         model.surfaces.clone_from(&self.home.surfaces);
         true
+    }
+
+    /// Whether the shapes were just given back as they were, and rested so. Relaxed and improved once more a coarse mesh would
+    /// go on to be another one.
+    pub(crate) fn rests_at_home(&self) -> bool {
+        self.is_home_again && !self.is_new && (self.before.rests || self.before.making == Making::Own)
     }
 
     /// Whether what is held is back where the drag took hold of it.

@@ -303,7 +303,11 @@ impl Modeler {
             && grab.rescue(&mut self.model, self.relaxer.energy(), false)
         {
             self.relaxer.count_rescue();
-            self.relaxer.wake();
+            if grab.rests_at_home() {
+                self.relaxer.rest(&self.model);
+            } else {
+                self.relaxer.wake();
+            }
         }
     }
 

@@ -236,20 +236,24 @@ impl Relaxer {
         for id in model.surfaces.keys().copied().collect::<Vec<_>>() {
             self.step_surface(model, id, budget, is_moving);
         }
-        let is_due = self.phase.is_multiple_of(MAINTENANCE_PERIOD) && self.fast == 0;
-        // A mesh that still does can wait until the hand rests: a new one costs the frame a new factorisation.
-        let is_overdue = self.fast == 0 && density::is_overdue(model, &self.surfaces);
-        if is_due && (!is_moving || self.is_worn(model)) || is_overdue {
+        if self.is_due(model, is_moving) {
             self.maintain(model, is_moving);
         }
         self.surfaces.values_mut().for_each(BoundSurface::fit);
     }
 
-    /// Whether any mesh no longer does for its shape.
-    fn is_worn(&self, model: &Model) -> bool {
-        self.surfaces.iter().any(|(id, bound)| {
-            model.surfaces.get(id).is_some_and(|shape| bound.is_worn(shape.longest_wanted()))
-        })
+    /// Whether the meshes are to be improved after this step. A new mesh costs the frame a new factorisation: one that still
+    /// does waits until the hand rests, and one that does not until it is slow, unless it would break before.
+    fn is_due(&self, model: &Model, is_moving: bool) -> bool {
+        let is_time = self.phase.is_multiple_of(MAINTENANCE_PERIOD);
+        let is_any = |asks: fn(&BoundSurface, f64) -> bool| {
+            let of = |(id, bound)| model.surfaces.get(id).is_some_and(|s| asks(bound, s.longest_wanted()));
+            self.surfaces.iter().any(of)
+        };
+        if self.fast > 0 {
+            return is_time && is_any(BoundSurface::is_breaking);
+        }
+        is_time && (!is_moving || is_any(BoundSurface::is_worn)) || density::is_overdue(model, &self.surfaces)
     }
 
     /// Steps the curves that have to agree where they meet; returns which those are.

@@ -1,6 +1,7 @@
 //! Objectives beside the thin plate: exact gradients, known minimisers, and regions that meet.
 
 #![allow(clippy::unwrap_used, reason = "a failing test or bench should stop where it fails")]
+#![allow(clippy::print_stdout, reason = "the figures are worth seeing with --nocapture")]
 
 use ductile_solver::workload::{self, Stream, Workload};
 use ductile_solver::{Budget, Frozen, Objective, Objectives, SolverError, SurfaceSolver};
@@ -263,29 +264,95 @@ fn a_fair_raised_disc_is_a_cap_of_a_sphere() {
     assert!(worst < 1e-4, "{worst}");
 }
 
-#[test]
-fn regions_meet_smoothly() {
-    // A disc cut in two by a fixed line: each half has its own objective, and both bend the line's neighbourhood.
-    let mut shape = workload::disc(10);
-    for (position, fixed) in shape.positions.iter().zip(&mut shape.fixed) {
-        *fixed |= position.y.abs() < 1e-9;
+/// A square sheet of `2 n` by `2 n` cells of size `1 / n`, raised to a hill that leans; rim and middle line are held.
+fn halved(n: u32) -> Workload {
+    let rows = 2 * n + 1;
+    let (mut positions, mut fixed, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
+    for j in 0..rows {
+        for i in 0..rows {
+            let [x, y] = [i, j].map(|k| f64::from(k) / f64::from(n) - 1.0);
+            let hill = 0.3 * libm::cos(0.5 * PI * x) * libm::cos(0.5 * PI * y);
+            positions.push(DVec3::new(x, y, hill * (1.0 + 0.4 * y)));
+            fixed.push([0, n, 2 * n].contains(&j) || i == 0 || i == 2 * n);
+            if i + 1 < rows && j + 1 < rows {
+                let at = |i: u32, j: u32| j * rows + i;
+                let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+                if (i + j) % 2 == 0 {
+                    triangles.extend([[a, b, c], [a, c, d]]);
+                } else {
+                    triangles.extend([[a, b, d], [b, c, d]]);
+                }
+            }
+        }
     }
-    for position in &mut shape.positions {
-        position.z = 0.3 * (1.0 - position.truncate().length_squared()) * (1.0 + 0.4 * position.y);
+    Workload { positions, triangles, fixed }
+}
+
+/// The largest jump of slope and of second derivative across the middle line, away from its ends, seen from either side alone.
+fn jumps(n: u32, positions: &[DVec3]) -> [f64; 2] {
+    let (h, rows) = (1.0 / f64::from(n), 2 * n + 1);
+    let mut most = [0.0_f64; 2];
+    for i in n / 2..=n + n / 2 {
+        let z = |k: i64| {
+            positions[usize::try_from((i64::from(n) + k) * i64::from(rows) + i64::from(i)).unwrap()].z
+        };
+        let side = |s: i64| {
+            let slope = (-11.0 * z(0) + 18.0 * z(s) - 9.0 * z(2 * s) + 2.0 * z(3 * s)) / (6.0 * h);
+            let bend = (2.0 * z(0) - 5.0 * z(s) + 4.0 * z(2 * s) - z(3 * s)) / (h * h);
+            [slope * s as f64, bend]
+        };
+        let (up, down) = (side(1), side(-1));
+        most = [0, 1].map(|k| most[k].max((up[k] - down[k]).abs()));
     }
-    let is_upper = |t: &[u32; 3]| t.iter().map(|&node| shape.positions[node as usize].y).sum::<f64>() > 0.0;
-    for (one, other) in [
-        (Objective::ThinPlate, Objective::Fair),
-        (Objective::Fair, Objective::Membrane),
-        (Objective::Neutral, Objective::ThinPlate),
-    ] {
+    most
+}
+
+/// The jumps across the middle line of a halved sheet at rest, on three sheets each twice as fine as the one before, and the
+/// orders at which they fall.
+fn meeting(one: Objective, other: Objective) -> ([[f64; 2]; 3], [[f64; 2]; 2]) {
+    let measured = [8, 16, 32].map(|n| {
+        let shape = halved(n);
+        let is_upper =
+            |t: &[u32; 3]| t.iter().map(|&node| shape.positions[node as usize].y).sum::<f64>() > 0.0;
         let choice = shape.triangles.iter().map(|t| if is_upper(t) { one } else { other }).collect();
         let mut solver = shape.solver().unwrap();
         solver.set_objectives(Objectives::by_triangle(choice, 1.0)).unwrap();
         let mut positions = shape.positions.clone();
-        let rests = (0..60).any(|_| solver.step(&mut positions, Budget { iterations: 60 }).unwrap().at_rest);
+        let rests = (0..120).any(|_| solver.step(&mut positions, Budget { iterations: 60 }).unwrap().at_rest);
         assert!(rests, "{one:?} beside {other:?}");
         assert!(positions.iter().all(|p| p.is_finite()));
+        jumps(n, &positions)
+    });
+    let orders = [0, 1].map(|k| [0, 1].map(|what| libm::log2(measured[k][what] / measured[k + 1][what])));
+    println!("{one:?} | {other:?}: slope and bend jump by {measured:.4?}, orders {orders:.2?}");
+    (measured, orders)
+}
+
+/// Curvature, too, where both sides have the same order of equation. Where only one prices its variation, that of the other is
+/// free at the line.
+#[test]
+fn regions_meet_smoothly() {
+    use Objective::{Fair, Neutral, ThinPlate};
+    for (one, other, has_bend) in [
+        (ThinPlate, ThinPlate, true),
+        (Fair, Fair, true),
+        (Neutral, ThinPlate, true),
+        (ThinPlate, Fair, false),
+        (Neutral, Fair, false),
+    ] {
+        let (jumps, orders) = meeting(one, other);
+        let says = format!("{one:?} | {other:?}: {jumps:?}, {orders:?}");
+        assert!(orders[0][0] > 0.2 && orders[1][0] > 0.7 && jumps[2][0] < 0.05, "slope, {says}");
+        assert!(!has_bend || orders.iter().all(|of| of[1] > 1.1) && jumps[2][1] < 0.02, "bend, {says}");
+    }
+}
+
+/// A film has no bending by which it could meet anything but the line: along a curve that is held it stands at an angle.
+#[test]
+fn a_film_meets_other_regions_at_an_angle() {
+    for one in [Objective::ThinPlate, Objective::Fair] {
+        let (jumps, _) = meeting(one, Objective::Membrane);
+        assert!(jumps.iter().all(|of| of[0] > 0.5), "{one:?}: {jumps:?}");
     }
 }
 

@@ -351,6 +351,33 @@ fn smoothing_keeps_the_radius_of_a_sphere() {
     assert!(reports[99].moved < reports[0].moved / 4, "{} {}", reports[0].moved, reports[99].moved);
 }
 
+/// Far out a quadratic is no map of the surface: a move is cut at half a mean edge, whatever it was meant to be.
+#[test]
+fn a_smoothing_move_is_cut_where_the_quadratic_is_no_map() {
+    let start = workload::disc(6);
+    let mut movable = vec![false; start.positions.len()];
+    movable[30] = true;
+    // Beside one of its neighbours, so that it has far to go.
+    let mut moved = start.positions.clone();
+    let mut solver = start.solver().unwrap();
+    let far = solver.rings().ring(30)[0] as usize;
+    moved[30] = moved[30].lerp(moved[far], 0.6);
+    let mut run = |fraction: f64| {
+        let mut positions = moved.clone();
+        let report = solver.smooth(&mut positions, &movable, fraction);
+        assert_eq!(report.moved, 1, "{fraction}");
+        (report.largest_relative_move, positions[30].distance(moved[30]))
+    };
+    let (whole, way) = run(0.6);
+    assert!(whole > 0.1 && whole < 0.5, "{whole}");
+    // A flat disc maps its moves by themselves.
+    for fraction in [5.0, 50.0] {
+        let (cut, short) = run(fraction);
+        assert!((cut - 0.5).abs() < 1e-12, "{cut}");
+        assert!((short / way - 0.5 / whole).abs() < 1e-9, "{short} for {way}");
+    }
+}
+
 #[test]
 fn new_nodes_are_lifted_onto_the_surface() {
     let shape = workload::sphere(3);

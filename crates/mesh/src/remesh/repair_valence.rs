@@ -10,6 +10,9 @@ use crate::{EdgeId, Mesh, VertexId};
 
 /// A full quadratic through the centre needs five neighbours.
 const ENOUGH: usize = 5;
+/// The proof bounds the edits of a pass, but generously; real passes make far less than one per edge, and a page cannot wait
+/// for more.
+const MOST_EDITS_PER_EDGE: usize = 8;
 
 /// Gives every inner vertex at least five neighbours where that is possible: the link edge whose flip
 /// makes the widest corners is turned towards it, if they are wider than 15° and the edge's ends keep five
@@ -20,8 +23,10 @@ const ENOUGH: usize = 5;
 /// corners, be they ever so sharp or bent: no pass makes such a vertex, but the cuts along a curve may, and where
 /// the surface is folded nothing else takes them from it.
 ///
-/// This ends: every collapse leaves fewer vertices, and between collapses every flip leaves fewer surplus neighbours, or as many and fewer
-/// missing ones.
+/// This ends: every edit makes (vertices, surplus neighbours, missing neighbours) less, read like a word in a dictionary. A collapse
+/// leaves fewer vertices. A flip away from a crowded vertex takes a surplus neighbour from it and gives its new edge to two that
+/// are below the limit. A flip towards a poor vertex gives it one that it misses, its ends can spare theirs, and neither
+/// end of the new edge comes above the limit. There is a budget all the same, as for flips.
 pub fn repair_valence(
     mesh: &mut Mesh,
     positions: &[DVec3],
@@ -29,14 +34,32 @@ pub fn repair_valence(
     seeds: Seeds<'_>,
     limits: &Limits<'_>,
 ) -> Edits {
+    let budget = MOST_EDITS_PER_EDGE * mesh.edge_count();
+    repairs_within(mesh, positions, sizing, seeds, limits, budget)
+}
+
+/// The same, with so many edits at most.
+pub(super) fn repairs_within(
+    mesh: &mut Mesh,
+    positions: &[DVec3],
+    sizing: &Sizing,
+    seeds: Seeds<'_>,
+    limits: &Limits<'_>,
+    most: usize,
+) -> Edits {
     let mut edits = Edits::default();
     let mut stack = seeds.vertices(mesh);
     stack.retain(|&v| is_poor(mesh, v) || is_crowded(mesh, v, limits));
     stack.reverse();
     let mut ring = Vec::new();
     while let Some(v) = stack.pop() {
-        if !mesh.has_vertex(v) {
+        if !mesh.has_vertex(v) || !(is_poor(mesh, v) || is_crowded(mesh, v, limits)) {
             continue;
+        }
+        if edits.count() >= most {
+            // Whether anything could be done about it is not worth finding out.
+            edits.is_cut_short = true;
+            break;
         }
         if is_crowded(mesh, v, limits) {
             if let Some((e, diagonal)) = relief(mesh, positions, v, limits) {
@@ -45,9 +68,6 @@ pub fn repair_valence(
                 edits.touched.extend(diagonal.ends.into_iter().chain(diagonal.opposite));
                 stack.push(v);
             }
-            continue;
-        }
-        if !is_poor(mesh, v) {
             continue;
         }
         if let Some((e, diagonal)) = best_flip(mesh, positions, sizing, v, limits) {

@@ -309,6 +309,53 @@ fn poor_vertices_are_mended() {
     assert!(q.least_angle > 15_f64.to_radians());
 }
 
+/// What the proof of `repair_valence` counts: vertices, surplus neighbours, missing neighbours.
+fn repairs_left(mesh: &Mesh, limits: &Limits<'_>) -> (usize, usize, usize) {
+    let surplus = mesh.vertices().map(|v| mesh.valence(v).saturating_sub(limits.most_neighbours)).sum();
+    let inner = mesh.vertices().filter(|&v| !mesh.is_boundary_vertex(v));
+    let missing = inner.map(|v| 5_usize.saturating_sub(mesh.valence(v))).sum();
+    (mesh.vertex_count(), surplus, missing)
+}
+
+#[test]
+fn every_repair_lowers_what_its_proof_counts_and_repairs_end_with_their_budget() {
+    let mut one_by_one = [0; 3];
+    for seed in 0..12_u64 {
+        let (mut mesh, mut positions) = primitive::icosphere(2);
+        // Any edges are flipped, whatever comes of it: crowds, and many with three or four neighbours.
+        let mut choice = vec![DVec3::ZERO; 2 * mesh.edge_count()];
+        jitter(&mut choice, 1.0, seed);
+        let edges: Vec<_> = mesh.edges().collect();
+        for (k, at) in choice.iter().enumerate() {
+            let e = edges[k % edges.len()];
+            if at.x > 0.0 && mesh.can_flip(e).is_ok() {
+                mesh.flip(e);
+            }
+        }
+        jitter(&mut positions, 0.05, seed);
+        let limits = Limits { most_neighbours: 9, may_collapse: seed % 3 > 0, ..Limits::default() };
+        let start = repairs_left(&mesh, &limits);
+        assert!(start.1 > 0 && start.2 > 10, "{start:?}");
+        let whole = repair_valence(&mut mesh.clone(), &positions, &FREE, Seeds::All, &limits);
+        assert!(!whole.is_cut_short && whole.count() < mesh.edge_count(), "{whole:?}");
+        loop {
+            let before = repairs_left(&mesh, &limits);
+            let edits = repair_valence::repairs_within(&mut mesh, &positions, &FREE, Seeds::All, &limits, 1);
+            assert!(edits.count() <= 1, "{edits:?}");
+            if edits.count() == 0 {
+                break;
+            }
+            let after = repairs_left(&mesh, &limits);
+            assert!(after < before, "{before:?} became {after:?}");
+            one_by_one[0] += edits.flips;
+            one_by_one[1] += edits.collapses;
+            one_by_one[2] += usize::from(edits.is_cut_short);
+        }
+        assert_eq!(validate(&mesh), Ok(()));
+    }
+    assert!(one_by_one.iter().all(|count| *count > 10), "{one_by_one:?}");
+}
+
 /// A hub with spokes to 60 samples of a curve, with and without a surface beyond them, flat and crumpled.
 #[test]
 fn a_crowded_vertex_gives_neighbours_away() {

@@ -113,3 +113,41 @@ fn a_curve_that_no_solver_can_hold_is_counted_and_left_as_it_is() {
     relaxer.step(&mut model, 4);
     assert_eq!(model.curves[&id].nodes, before);
 }
+
+#[test]
+fn a_motion_that_the_solver_refuses_is_counted_and_the_shape_relaxes_without_it() {
+    let (mut model, mut relaxer) = without_rest();
+    let place = |model: &Model| model.surfaces[&SURFACE].positions.clone();
+    let before = place(&model);
+    relaxer.step(&mut model, 4);
+    // Once for the motion; the step itself is as good as any.
+    assert_eq!(relaxer.rescues, 1);
+    let pin = model.surfaces[&SURFACE].pins[0].vertex.index();
+    assert_eq!(place(&model)[pin], before[pin]);
+    assert!(place(&model).iter().all(|at| at.is_finite()));
+    assert!(relaxer.states().all(|(_, state)| !state.at_rest && state.energy.is_finite()));
+}
+
+/// A neutral disc crushed to a line, at which a hand pulls while a plane is held: it comes a part of the way at a time, and the
+/// steps between find no way on.
+#[test]
+fn a_part_of_a_motion_whose_step_is_damped_is_counted_by_itself() {
+    let mut document = example(Example::RaisedDisc);
+    document.spacing = Some(0.3);
+    document.objective = ductile_spec::Objective::Neutral;
+    let mut model = Model::from_document(document).unwrap();
+    let crush = |at: &mut DVec3| *at = DVec3::X * at.x;
+    let point = *model.document.points.keys().last().unwrap();
+    model.document_mut().points.values_mut().for_each(crush);
+    model.document_mut().points.insert(point, DVec3::Z * 3.0);
+    let surface = model.document_mut().surfaces.get_mut(&SURFACE).unwrap();
+    surface.normals.insert(point, DVec3::Z);
+    edit(model.surfaces.get_mut(&SURFACE).unwrap()).positions.iter_mut().for_each(crush);
+    model.curves.values_mut().for_each(|curve| edit(curve).nodes.iter_mut().for_each(crush));
+    let mut relaxer = Relaxer::default();
+    relaxer.bind(&model);
+    relaxer.step(&mut model, 8);
+    // At most one of them is that of the step at the end.
+    assert!(relaxer.rescues > 1, "{}", relaxer.rescues);
+    assert!(model.surfaces[&SURFACE].positions.iter().all(|at| at.is_finite()));
+}

@@ -352,4 +352,71 @@ mod tests {
         }
         assert!(woke, "the border never stirred");
     }
+
+    /// The angles between the facets on both sides of a circle's edges.
+    fn folds(solver: &SurfaceSolver, positions: &[DVec3], circle: &[u32]) -> Vec<f64> {
+        let triangles = solver.rings().triangles();
+        let normal = |t: &[u32; 3]| {
+            let [a, b, c] = t.map(|node| positions[node as usize]);
+            (b - a).cross(c - a)
+        };
+        let sides = circle.iter().zip(circle.iter().cycle().skip(1)).filter_map(|(a, b)| {
+            let on = triangles.iter().filter(|t| t.contains(a) && t.contains(b)).collect::<Vec<_>>();
+            let [one, other] = on[..] else { return None };
+            Some(normal(one).angle_between(normal(other)))
+        });
+        sides.collect()
+    }
+
+    /// Asleep or not, what a hand sees of the border is the same, and nothing jumps when all wakes.
+    #[test]
+    fn no_seam_shows_at_the_border_of_sleeping_bays_and_nothing_jumps_when_they_wake() {
+        let ((mut solver, mut positions, circles), (mut other, mut awake, _)) = (tube(), tube());
+        let h = solver.fits.nodes[circles[4][0] as usize].h;
+        let (mut tilt, mut fold, mut apart) = (0.0_f64, 0.0_f64, 0.0_f64);
+        let mut frames = 0;
+        for _ in 0..20 {
+            let moves: Vec<_> = circles[0].iter().map(|&node| (node, DVec3::X * 0.01)).collect();
+            let before = positions.clone();
+            solver.predict(&mut positions, &moves).unwrap();
+            solver.step(&mut positions, Budget::default()).unwrap();
+            let is_asleep = solver.asleep() > 0;
+            solver.evaluate(&positions);
+            other.predict(&mut awake, &moves).unwrap();
+            other.step(&mut awake, Budget::default()).unwrap();
+            other.evaluate(&awake);
+            frames += u32::from(is_asleep);
+            for circle in circles[1..8].iter().filter(|_| is_asleep) {
+                for &node in circle {
+                    let node = node as usize;
+                    assert_eq!(positions[node], awake[node], "a control that nobody moved");
+                    tilt = tilt.max(solver.normals()[node].angle_between(other.normals()[node]));
+                }
+                let [ours, theirs] = [folds(&solver, &positions, circle), folds(&other, &awake, circle)];
+                fold = ours.iter().zip(&theirs).fold(fold, |most, (a, b)| most.max((a - b).abs()));
+            }
+            apart = positions.iter().zip(&awake).fold(apart, |most, (a, b)| most.max(a.distance(*b)));
+            solver.doze(&before, &positions).unwrap();
+        }
+        assert!(frames > 10 && solver.asleep() > 0, "{frames}");
+        // The hand stops: all wakes, and the next step is one of the whole.
+        let border: Vec<u32> = solver.sleep.as_ref().unwrap().border.iter().map(|border| border.0).collect();
+        let beside = |node: u32| solver.rings.ring(node as usize).to_vec();
+        let beside: Vec<u32> = border.iter().flat_map(|&node| beside(node)).collect();
+        let before = positions.clone();
+        assert!(!border.is_empty() && solver.wake());
+        let moved = |now: &[DVec3], node: usize| now[node].distance(before[node]) / h;
+        let mut jumps = [0.0_f64; 2];
+        for _ in 0..2 {
+            solver.step(&mut positions, Budget::default()).unwrap();
+            let beside = beside.iter().map(|&node| moved(&positions, node as usize)).fold(0.0, f64::max);
+            let anywhere = (0..positions.len()).map(|node| moved(&positions, node)).fold(0.0, f64::max);
+            jumps = [jumps[0].max(beside), jumps[1].max(anywhere)];
+        }
+        // No more than a bay may move in a frame and be taken to sleep, and beside the border still less.
+        assert!(jumps[0] < 0.5 * QUIET && jumps[1] < QUIET, "{jumps:?} of an edge");
+        assert!(tilt < BORDER && fold < BORDER, "normals by {tilt}, facets by {fold} radians");
+        assert!(apart < STIR * h, "{apart}");
+        assert!(border.iter().all(|&node| positions[node as usize] == before[node as usize]));
+    }
 }

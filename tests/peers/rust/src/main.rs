@@ -1,6 +1,8 @@
 //! Peers in Rust and our own code on the same meshes; prints one line of a table for each figure.
 //!
-//!     ductile-peers torus OUT.obj         writes the uneven torus of the benches
+//!     ductile-peers torus OUT.obj         writes the uneven torus of the benches, and prints its spacing
+//!     ductile-peers even OUT.obj          the same made even, then one vertex in 200 moved; times one batch of ours on it
+//!     ductile-peers tube OUT.obj OUT.held a tube of 96,000 nodes between 41 held circles; times frames of ours on it
 //!     ductile-peers plate MESH.obj        one linear solve of the plate: faer; and our step, which is the non-linear one
 //!     ductile-peers remesh                baby_shark and ours on that torus
 //!     ductile-peers meet MESH.obj DX      where a closed mesh meets itself moved by DX along x
@@ -14,8 +16,9 @@ mod torus;
 use baby_shark::mesh::corner_table::CornerTable;
 use baby_shark::remeshing::incremental::IncrementalRemesher;
 use ductile_mesh::io::obj;
+use ductile_mesh::remesh::{Ledger, Limits, Sizing, improve_changed, midpoint};
 use ductile_mesh::{Mesh, intersections};
-use ductile_solver::{Budget, Rings, Settings, SurfaceSolver};
+use ductile_solver::{Budget, Rings, Sampling, Settings, SurfaceSolver, workload};
 use faer::linalg::solvers::Solve;
 use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
 use faer::sparse::{SparseColMat, Triplet};
@@ -31,17 +34,87 @@ fn main() {
     match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         ["torus", out] => {
             let (mesh, positions) = torus::torus();
-            std::fs::write(out, obj::write(&mesh, &positions, None)).expect("a place to write to");
+            write(out, &mesh, &positions);
+            println!("{}", torus::SPACING);
         }
+        ["even", out] => even(out),
+        ["tube", out, held] => tube(out, held),
         ["plate", path] => plate(path),
         ["remesh"] => remesh(),
         ["meet", path, by] => meet(path, by.parse().expect("a number")),
-        _ => panic!("torus OUT.obj | plate MESH.obj | remesh | meet MESH.obj DX"),
+        _ => panic!(
+            "torus OUT.obj | even OUT.obj | tube OUT.obj OUT.held | plate MESH.obj | remesh | meet MESH.obj DX"
+        ),
     }
 }
 
 fn read(path: &str) -> (Mesh, Vec<DVec3>) {
     obj::read_mesh(&std::fs::read_to_string(path).expect("a file")).expect("a mesh")
+}
+
+fn write(out: &str, mesh: &Mesh, positions: &[DVec3]) {
+    std::fs::write(out, obj::write(mesh, positions, None)).expect("a place to write to");
+}
+
+/// Figure f: what one batch finds on an even mesh of which something moved.
+fn even(out: &str) {
+    let (mut mesh, mut positions) = torus::torus();
+    torus::remesh(&mut mesh, &mut positions);
+    let mut ledger = Ledger::default();
+    let batch = |(mesh, positions, ledger): &mut (Mesh, Vec<DVec3>, Ledger)| {
+        let mut sizing = Sizing::Uniform(torus::SPACING);
+        let ledger = (ledger, 0.0);
+        improve_changed(mesh, positions, &mut sizing, ledger, &Limits::default(), &mut midpoint).count()
+    };
+    for _ in 0..10 {
+        let mut given = (mesh, positions, ledger);
+        batch(&mut given);
+        (mesh, positions, ledger) = given;
+    }
+    let old = positions.clone();
+    for v in mesh.vertices().step_by(200) {
+        if let Some(w) = mesh.neighbours(v).next() {
+            positions[v.index()] = old[v.index()].lerp(old[w.index()], 0.45);
+        }
+    }
+    write(out, &mesh, &positions);
+    let moved = (mesh, positions, ledger);
+    let time = least(|| moved.clone(), |mut given| (batch(&mut given), given));
+    println!("{{\"seconds\": {}, \"edits\": {}}}", 1e-3 * time, batch(&mut moved.clone()));
+}
+
+/// Figure b: a frame of a drag of the first circle, the very first one and one whose far bays sleep.
+fn tube(out: &str, held: &str) {
+    let shape = workload::tube_of_bays(240, 40, 10);
+    let mesh = Mesh::from_triangles(shape.positions.len(), &shape.triangles).expect("a tube");
+    write(out, &mesh, &shape.positions);
+    let nodes = (0..shape.fixed.len()).filter(|&node| shape.fixed[node]).map(|node| node.to_string());
+    std::fs::write(held, nodes.collect::<Vec<_>>().join("\n")).expect("a place to write to");
+    let rings = Rings::from_triangles(shape.positions.len(), &shape.triangles).expect("a tube");
+    let mut settings = Settings::default();
+    settings.sampling = Sampling::Inside;
+    let solver = SurfaceSolver::new(rings, shape.fixed.clone(), settings).expect("a tube");
+    let mut rested = (solver, shape.positions.clone());
+    workload::relax(&mut rested.0, &mut rested.1, 60).expect("a step");
+    let frame = |(mut solver, mut positions): (SurfaceSolver, Vec<DVec3>)| {
+        let before = positions.clone();
+        let moves: Vec<_> = (0..240).map(|node| (node, DVec3::X * 0.01)).collect();
+        solver.predict(&mut positions, &moves).expect("a held circle");
+        solver.step(&mut positions, Budget::default()).expect("a step");
+        solver.doze(&before, &positions).expect("bays can sleep");
+        (solver, positions)
+    };
+    let first = least(|| rested.clone(), frame);
+    for _ in 0..10 {
+        rested = frame(rested);
+    }
+    let later = least(|| rested.clone(), frame);
+    println!(
+        "{{\"first\": {}, \"later\": {}, \"asleep\": {}}}",
+        1e-3 * first,
+        1e-3 * later,
+        rested.0.asleep()
+    );
 }
 
 /// Least time in milliseconds of work on what is got ready outside of it.

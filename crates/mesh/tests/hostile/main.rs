@@ -3,6 +3,10 @@
 
 #![allow(clippy::unwrap_used, reason = "a failing test should stop where it fails")]
 
+mod acts;
+mod places;
+mod ply;
+
 use ductile_mesh::io::obj::{self, ObjError};
 use ductile_mesh::remesh::{self, Limits, Seeds, Sizing};
 use ductile_mesh::{

@@ -3,11 +3,11 @@
 
 #![allow(clippy::unwrap_used, reason = "a failing test should stop where it fails")]
 
+mod choices;
+mod curves;
+
 use ductile_solver::workload::{self, Workload};
-use ductile_solver::{
-    Budget, CurveSettings, CurveSolver, Fill, RingError, Rings, SolverError, SurfaceSolver, Weights, fill,
-    resample, respace,
-};
+use ductile_solver::{Budget, Fill, RingError, Rings, SolverError, SurfaceSolver, Weights, fill};
 use glam::DVec3;
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -201,106 +201,4 @@ fn a_skin_is_refused_untouched_or_filled_with_numbers() {
             }
         }
     }
-}
-
-/// A wavy closed or open curve of so many nodes, every fourth of them fixed, and what may have become of it.
-fn curves() -> Vec<(&'static str, Expected, Vec<DVec3>)> {
-    let node = |k: u32| {
-        let (sin, cos) = libm::sincos(f64::from(k) * std::f64::consts::TAU / 16.0);
-        DVec3::new(cos, sin, 0.2 * libm::sin(f64::from(3 * k)))
-    };
-    let good: Vec<DVec3> = (0..16).map(node).collect();
-    let with = |change: &dyn Fn(&mut Vec<DVec3>)| {
-        let mut positions = good.clone();
-        change(&mut positions);
-        positions
-    };
-    vec![
-        ("good", Served, good.clone()),
-        ("duplicate node", Served, with(&|p| p[6] = p[5])),
-        ("duplicate controls", Served, with(&|p| p[4] = p[0])),
-        ("a stretch without length", Served, with(&|p| (1..5).for_each(|k| p[k] = p[0]))),
-        ("all equal", Served, vec![DVec3::ONE; 16]),
-        ("a line", Served, good.iter().map(|p| DVec3::X * p.x).collect()),
-        ("there and back", Served, with(&|p| (0..8).for_each(|k| p[15 - k] = p[k]))),
-        ("large", Served, good.iter().map(|p| *p * 1e40).collect()),
-        ("small", Served, good.iter().map(|p| *p * 1e-40).collect()),
-        ("huge", Refused, good.iter().map(|p| *p * 1e150).collect()),
-        ("tiny", Refused, good.iter().map(|p| *p * 1e-150).collect()),
-        ("NaN", Refused, with(&|p| p[3].y = f64::NAN)),
-        ("infinite", Refused, with(&|p| p[3].y = f64::INFINITY)),
-    ]
-}
-
-#[test]
-fn a_curve_is_refused_untouched_or_served_without_harm() {
-    let fixed: Vec<bool> = (0..16).map(|k| k % 4 == 0 || k == 15).collect();
-    for (name, expected, start) in curves() {
-        for closed in [false, true] {
-            let says = format!("{name}, closed {closed}");
-            let mut solver = CurveSolver::new(16, closed, fixed.clone(), CurveSettings::default()).unwrap();
-            let mut positions = start.clone();
-            let size = start.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max).min(1e60);
-            for _ in 0..6 {
-                let before = bits(&positions);
-                let moved = solver.predict(&mut positions, &[(4, DVec3::Z * (0.1 * size))]);
-                let step = solver.step(&mut positions);
-                match (expected, &moved, &step) {
-                    (Served, Ok(_), Ok(report)) => {
-                        assert!(
-                            report.energy.is_finite() && report.energy <= report.energy_before,
-                            "{says}: {report:?}"
-                        );
-                        assert!(positions.iter().all(|p| p.is_finite()), "{says}");
-                    }
-                    (Refused, Err(one), Err(other)) if is_refusal(one) && is_refusal(other) => {
-                        assert_eq!(bits(&positions), before, "{says}");
-                    }
-                    _ => panic!("{says}: {moved:?}, {step:?}"),
-                }
-            }
-            for spacing in [0.1, 0.0, -1.0, f64::NAN, f64::INFINITY, 1e-300] {
-                let sampled = resample(&start, closed, &fixed, spacing, 2);
-                match (expected, &sampled) {
-                    (Served, Ok(sampled)) => {
-                        assert!(sampled.positions.iter().all(|p| p.is_finite()), "{says}, {spacing}");
-                        let kept = start.iter().zip(&fixed).filter(|(_, fixed)| **fixed).map(|(p, _)| *p);
-                        let held = sampled.positions.iter().zip(&sampled.fixed).filter(|(_, fixed)| **fixed);
-                        assert!(kept.eq(held.map(|(p, _)| *p)), "{says}, {spacing}");
-                    }
-                    (Refused, Err(error)) if is_refusal(error) => {}
-                    _ => panic!("{says}, {spacing}: {:?}", sampled.map(|s| s.positions.len())),
-                }
-            }
-            let mut positions = start.clone();
-            match (expected, respace(&mut positions, closed, &fixed)) {
-                (Served, Ok(())) => assert!(positions.iter().all(|p| p.is_finite()), "{says}"),
-                (Refused, Err(error)) if is_refusal(&error) => {
-                    assert_eq!(bits(&positions), bits(&start), "{says}")
-                }
-                (_, other) => panic!("{says}: {other:?}"),
-            }
-        }
-    }
-}
-
-#[test]
-fn curves_of_hardly_any_nodes_are_harmless() {
-    for count in 0..4 {
-        for closed in [false, true] {
-            for fixed in [false, true] {
-                let mut solver =
-                    CurveSolver::new(count, closed, vec![fixed; count], CurveSettings::default()).unwrap();
-                let mut positions: Vec<DVec3> = (0..count).map(|k| DVec3::X * k as f64).collect();
-                for _ in 0..3 {
-                    assert!(solver.step(&mut positions).unwrap().energy.is_finite());
-                }
-                assert!(positions.iter().all(|p| p.is_finite()));
-                respace(&mut positions, closed, &vec![fixed; count]).unwrap();
-                resample(&positions, closed, &vec![fixed; count], 0.1, 1).unwrap();
-            }
-        }
-    }
-    let wrong = CurveSolver::new(3, true, vec![true; 2], CurveSettings::default());
-    assert_eq!(wrong.unwrap_err(), SolverError::Length { expected: 3, found: 2 });
 }

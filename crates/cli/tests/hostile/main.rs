@@ -3,6 +3,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a failing test should stop where it fails")]
 
+mod commands;
+
 use std::process::Command;
 
 const DISC: &str = r#"{ "ductile": 1, "spacing": 0.3,
@@ -21,10 +23,12 @@ fn run(arguments: &[&str]) -> (Option<i32>, String) {
 }
 
 #[test]
-fn hostile_specifications_are_refused_by_solve_and_check() {
+fn hostile_specifications_are_refused_by_all_that_take_one() {
     let folder = tempfile::tempdir().unwrap();
-    let [spec, out] = ["spec.json", "out.obj"].map(|name| folder.path().join(name));
+    let [spec, out, script] = ["spec.json", "out.obj", "script.json"].map(|name| folder.path().join(name));
     let (spec_name, out_name) = (spec.to_str().unwrap(), out.to_str().unwrap());
+    std::fs::write(&script, "[\"rest\"]").unwrap();
+    let script_name = script.to_str().unwrap();
     let change = |from: &str, to: &str| {
         assert!(DISC.contains(from), "{from}");
         DISC.replace(from, to)
@@ -53,7 +57,13 @@ fn hostile_specifications_are_refused_by_solve_and_check() {
         ("a spacing far too fine", change("0.3", "1e-12")),
     ] {
         std::fs::write(&spec, &text).unwrap();
-        for arguments in [vec!["check", spec_name], vec!["solve", spec_name, "-o", out_name]] {
+        for arguments in [
+            vec!["check", spec_name],
+            vec!["solve", spec_name, "-o", out_name],
+            vec!["seams", spec_name],
+            vec!["dehydrate", spec_name, "-o", out_name],
+            vec!["run", script_name, "--from", spec_name, "--obj", out_name],
+        ] {
             let (status, said) = run(&arguments);
             assert_eq!(status, Some(2), "{name}, {arguments:?}: {said}");
             assert!(said.starts_with("ductile: ") && said.contains("spec.json"), "{name}: {said}");
