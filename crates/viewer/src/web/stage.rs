@@ -229,6 +229,7 @@ impl Page {
             self.redraw();
         }
         self.update_hover();
+        self.watch_tube();
         self.update_panel();
         self.draw();
     }
