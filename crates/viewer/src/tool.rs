@@ -23,6 +23,7 @@ mod ribbon;
 mod room;
 mod selection;
 mod sketch;
+mod skin;
 mod surgery;
 #[cfg(test)]
 mod surgery_test;
@@ -38,11 +39,13 @@ pub use kind::ToolKind;
 pub use options::{Options, Toggle};
 pub use pair::{Pick, stretch};
 pub use path::Corner;
-pub use preview::{mean_radius, ties, tube};
+pub use preview::{Tube, drawn_ties, mean_radius, ties, tube};
 pub use ribbon::{handles_along, surface_of};
 pub use room::no_room;
 pub use selection::Selection;
 pub use sketch::Stroke;
+pub use skin::{Facet, least_skin, loft};
+pub use surgery::would_smooth;
 
 /// What a tool wants done.
 #[derive(Clone, Debug, PartialEq)]

@@ -37,7 +37,8 @@ mod tests {
 
     #[test]
     fn holes_meet_or_run_over_a_rim_or_have_room() {
-        let scene = sample::Sketch::default().grid(20, |u, v| Vec3::new(4.0 * u, 4.0 * v, 0.0), true).finish();
+        let scene =
+            sample::Sketch::default().grid(20, |u, v| Vec3::new(4.0 * u, 4.0 * v, 0.0), true).finish();
         let mut rims = Rims::default();
         rims.refresh(&scene);
         let surface = scene.structure.surfaces[0].id;

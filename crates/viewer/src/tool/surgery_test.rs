@@ -168,6 +168,9 @@ fn crease_takes_curves_and_regions_and_smooths_what_is_creased() {
     for nothing in [curve(1), curve(3), None] {
         assert!(refuses(&click(&mut tools, nothing)));
     }
+    let (_, document) = model();
+    let shown = [1, 2, 3, 4].map(|id| would_smooth(&document, CurveId(id)));
+    assert_eq!(shown, [None, Some(false), None, Some(true)], "what is shown before the click");
 }
 
 #[test]

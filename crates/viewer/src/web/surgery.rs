@@ -3,9 +3,10 @@
 use super::page::Page;
 use crate::input::Modifiers;
 use crate::tool::{
-    Aim, Pick, Place, Selection, Surroundings, ToolKey, ToolKind, no_room, stretch, ties, tube,
+    Aim, Pick, Place, Selection, Surroundings, ToolKey, ToolKind, Tube, drawn_ties, loft, no_room, stretch,
+    ties, tube,
 };
-use crate::{Highlight, Hit, RimHit, Tinted, closest_places};
+use crate::{Highlight, Hit, RimHit, Skin, Tinted, closest_places};
 use ductile_spec::SurfaceId;
 use glam::{Vec2, Vec3};
 
@@ -106,16 +107,6 @@ impl Page {
         }
     }
 
-    /// A region, or a surface in one piece, is tinted whole: no place in it counts more than another.
-    pub(crate) fn mark_region(&self, mark: &mut Highlight) {
-        mark.tinted.clear();
-        if let Some(Hit::Surface { id, triangle, .. }) = mark.hover {
-            let region = self.scene.region_of(triangle);
-            mark.tinted.push(region.map_or(Tinted::Surface(id), |region| Tinted::Region(id, region)));
-            mark.hover = None;
-        }
-    }
-
     /// The line of a curve, or of a stretch of it, and whether it closes.
     fn line_of(&self, pick: Pick) -> Option<(Vec<Vec3>, bool)> {
         let (id, ends) = match pick {
@@ -161,7 +152,9 @@ impl Page {
             && first != over
             && closed == too
         {
-            mark.sketch.extend(lines(ties(&one, &other, closed, self.tools.options().reversed)));
+            let ties = ties(&one, &other, closed, self.tools.options().reversed);
+            mark.sketch.extend(drawn_ties(&ties));
+            mark.skins.extend((self.tools.kind() == ToolKind::Sweep).then(|| between_ties(&ties, closed)));
         }
     }
 
@@ -190,7 +183,9 @@ impl Page {
         let over = self.hand.hover_rim.filter(|over| first.is_none_or(|first| first.index != over.index));
         let [one, other] = [first, over].map(|rim| rim.map(|rim| self.rims.places(&self.scene, rim.index)));
         if let (Some(one), Some(other)) = (&one, &other) {
-            mark.sketch = lines(ties(one, other, true, self.tools.options().reversed));
+            let ties = ties(one, other, true, self.tools.options().reversed);
+            mark.sketch = drawn_ties(&ties);
+            mark.skins.extend(self.tools.options().skirt.then(|| between_ties(&ties, true)));
         }
         mark.rims = [one, other].into_iter().flatten().collect();
     }
@@ -241,9 +236,10 @@ impl Page {
         let first = self.tools.first_place();
         mark.ghost.extend(first.map(|place| place.at));
         if self.tools.kind() == ToolKind::Trim {
-            let both = [first, place_of(mark.hover)].into_iter().flatten();
-            mark.tinted.extend(both.map(|place| Tinted::Surface(place.surface)));
             mark.sketch = self.trimmed_pair().map_or(&[][..], |pair| self.meetings.lines(pair)).to_vec();
+            for place in [first, place_of(mark.hover)].into_iter().flatten() {
+                self.mark_kept(mark, place);
+            }
             return;
         }
         if let Some([from, to]) = self.tube_ends(mark.hover) {
@@ -253,10 +249,10 @@ impl Page {
                 mark.ghost.push(to.at);
             }
             let radius = glam::DVec2::new(self.tube_radius(), 0.0).as_vec2().x;
-            mark.sketch = tube(from, to, radius);
-            for circle in mark.sketch.iter_mut().take(2) {
-                circle.extend(circle.first().copied());
-            }
+            let Tube { lines, struts } = tube(from, to, radius);
+            let is_refused = self.hand.no_tube.is_some();
+            mark.skins.push(Skin { facets: loft(&struts, true), is_refused });
+            mark.sketch = lines;
         }
     }
 }
@@ -281,6 +277,7 @@ fn between(line: &[Vec3], closed: bool, from: Vec3, to: Vec3) -> Vec<Vec3> {
     (0..=steps).filter_map(|step| line.get((first + step) % count.max(1)).copied()).collect()
 }
 
-fn lines(ties: Vec<[Vec3; 2]>) -> Vec<Vec<Vec3>> {
-    ties.into_iter().map(|ends| ends.to_vec()).collect()
+fn between_ties(ties: &[[Vec3; 2]], closed: bool) -> Skin {
+    let lines: Vec<Vec<Vec3>> = ties.iter().map(|ends| ends.to_vec()).collect();
+    Skin { facets: loft(&lines, closed), is_refused: false }
 }
