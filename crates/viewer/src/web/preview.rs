@@ -3,7 +3,7 @@
 use super::page::Page;
 use crate::tool::{Place, ToolKind, least_skin, would_smooth};
 use crate::{Highlight, Hit, SharpOrSoft, Skin, Tinted, outline, part_at, region_around, side_of};
-use ductile_spec::{CurveId, SurfaceId};
+use ductile_spec::CurveId;
 use glam::Vec3;
 
 /// How far parts drift apart, in CSS pixels.
@@ -28,29 +28,23 @@ impl Page {
                 let region = self.scene.region_of(triangle);
                 mark.tinted.push(region.map_or(Tinted::Surface(id), |region| Tinted::Region(id, region)));
                 mark.hover = None;
-                if let Some(part) =
-                    region_around(&self.scene, id, triangle).filter(|_| kind != ToolKind::Burnout)
-                {
-                    self.mark_cut(mark, id, &part);
+                let part = region_around(&self.scene, id, triangle).filter(|_| kind != ToolKind::Burnout);
+                for places in part.iter().flat_map(|part| outline(&self.scene, id, part)) {
+                    mark.edges.push(SharpOrSoft { places, closed: true, is_soft: false });
                 }
+                mark.skins.extend(part.filter(|_| kind == ToolKind::Split).map(|part| self.adrift(&part)));
             }
             Some(Hit::Curve { id, .. }) => self.mark_edge(mark, id),
             _ => {}
         }
     }
 
-    /// The lines along which a part would be cut off, and the part beside its place where it would be split off.
-    fn mark_cut(&self, mark: &mut Highlight, surface: SurfaceId, part: &[u32]) {
-        for places in outline(&self.scene, surface, part) {
-            mark.edges.push(SharpOrSoft { places, closed: true, is_soft: false });
-        }
-        if self.tools.kind() == ToolKind::Split {
-            let by = self.drift(part);
-            let corner = |v: &u32| self.scene.vertex(*v) + by;
-            let facets = part.chunks_exact(3).filter_map(|t| <[u32; 3]>::try_from(t).ok());
-            let facets = facets.map(|t| t.each_ref().map(corner)).collect();
-            mark.skins.push(Skin { facets, is_refused: false });
-        }
+    /// A part as it drifts away from its place.
+    fn adrift(&self, part: &[u32]) -> Skin {
+        let by = self.drift(part);
+        let corner = |v: u32| self.scene.vertex(v) + by;
+        let facets = part.chunks_exact(3).map(|t| [t[0], t[1], t[2]].map(corner)).collect();
+        Skin { facets, is_refused: false }
     }
 
     /// Off the surface, toward the eye; a part that turns all ways goes up.
@@ -76,11 +70,10 @@ impl Page {
         let closed = self.scene.curve(curve).is_some_and(|span| span.closed);
         let places = self.scene.samples(curve).collect();
         mark.edges.push(SharpOrSoft { places, closed, is_soft: is_soft && !is_split });
-        if let (true, Some(Hit::Surface { id, triangle, .. })) =
-            (is_split, self.hand.cursor.and_then(|at| self.below(at)))
-            && let Some(part) = side_of(&self.scene, id, triangle, curve)
-        {
-            self.mark_cut(mark, id, &part);
+        let below = self.hand.cursor.filter(|_| is_split).and_then(|at| self.below(at));
+        if let Some(Hit::Surface { id, triangle, .. }) = below {
+            let part = side_of(&self.scene, id, triangle, curve);
+            mark.skins.extend(part.map(|part| self.adrift(&part)));
         }
     }
 
