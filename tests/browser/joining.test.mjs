@@ -172,10 +172,10 @@ test("Enter shows the tube at the closest places, a second one makes it, Escape 
     }
     await takeBack(page, "Merge", before);
 
-    // K: without its rims. A click makes what is shown, wherever it falls.
+    // K: without its rims. With a pointer alone: the button shows the tube, and a click makes it, wherever it falls.
     await page.keyboard.press("k");
     await until(page, () => document.getElementById("option-keep").ariaPressed === "false");
-    await page.keyboard.press("Enter");
+    await page.locator("#merge-closest").click();
     await untilInspect(page, ({ marked }) => marked.lines === 14);
     await page.mouse.click(...onRim(before, 1, left));
     const free = await atRest(page, ({ act }) => act === "Merge");

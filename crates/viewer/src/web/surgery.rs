@@ -102,7 +102,10 @@ impl Page {
             _ => others.next().filter(|_| others.next().is_none()),
         };
         match other.and_then(|other| closest_places(&self.scene, from, other)) {
-            Some((from, to)) => self.tools.propose([from, to]),
+            Some((from, to)) => {
+                self.tools.propose([from, to]);
+                self.refresh();
+            }
             None => self.notices.refusal("Point at the other surface, or click where the tube should end."),
         }
     }
