@@ -23,8 +23,10 @@ test("a loop is shown under the pointer and filled by a click; how it is filled 
     await page.keyboard.press("f");
     await untilInspect(page, ({ tool }) => tool === "fill");
     await page.mouse.move(...between(opened, 6, 2));
-    const over = await untilInspect(page, ({ hover, marked }) => hover === "curve 1" && marked.lines >= 5);
+    const over = await untilInspect(page, ({ hover, marked }) => hover === "curve 1" && marked.lines >= 5 && marked.skins === 1);
     assert.equal(over.document, opened.document, "pointing changes nothing");
+    await drawn(page);
+    if (process.env.PICTURES) await page.screenshot({ path: `${process.env.PICTURES}/fill.png` });
     await page.locator("#new-fill-degree").selectOption({ label: "4" });
     await page.mouse.click(...between(opened, 6, 2));
     const filled = await atRest(page, ({ act }) => act === "Fill");

@@ -14,7 +14,7 @@ import {
   withDocument,
 } from "./support/model.mjs";
 import { until, untilInspect } from "./support/page.mjs";
-import { domeThroughDisc, twoDiscs } from "./support/rings.mjs";
+import { bowlOverDisc, domeThroughDisc, twoDiscs } from "./support/rings.mjs";
 
 /** Euler characteristic and boundaries of every surface, in order. */
 const kinds = ({ surfaces }) => surfaces.map(({ summary }) => [summary.euler, summary.boundaries]);
@@ -127,6 +127,97 @@ test("a tube is shown before it is made, the wheel sets its radius, and its rims
   });
 });
 
+/** Waits until the line of hints says so. */
+const hint = (page, text) => until(page, (text) => document.getElementById("hint").textContent.includes(text), text, { timeout: 10_000 });
+
+test("Enter shows the tube at the closest places, a second one makes it, Escape gives it up; its rims stay or go", async () => {
+  await withDocument(bowlOverDisc, async (page, before) => {
+    await page.keyboard.press("m");
+    await page.keyboard.press("Enter");
+    await untilInspect(page, ({ underWay, marked }) => underWay && marked.lines === 14 && marked.skins === 1);
+    await hint(page, "Enter or a click makes this tube");
+    await page.keyboard.press("Escape");
+    await untilInspect(page, ({ underWay, marked, tool }) => !underWay && marked.lines === 0 && tool === "merge");
+
+    // After a click the tube leads from the surface that was clicked, not from the place.
+    await page.mouse.click(...between(before, 1, 2, 3, 4));
+    await untilInspect(page, ({ underWay, marked }) => underWay && marked.lines === 0);
+    await page.keyboard.press("Enter");
+    await untilInspect(page, ({ marked }) => marked.lines === 14);
+    await drawn(page);
+    const suited = await picture(page);
+    // As in all fields, sums are done.
+    await page.locator("#tube-radius").fill("0.3/2 - 0.03");
+    await page.locator("#tube-radius").press("Enter");
+    await until(page, () => document.getElementById("tube-radius").value === "0.12");
+    await drawn(page);
+    assert.notDeepEqual((await picture(page)).data, suited.data, "the tube of that radius is shown");
+    assert.equal((await untilInspect(page, ({ underWay }) => underWay)).document, before.document, "nothing was done yet");
+    await page.keyboard.press("Enter");
+    const merged = await atRest(page, ({ act }) => act === "Merge");
+    assert.deepEqual([kinds(merged), merged.underWay], [[[0, 2]], false]);
+    const made = merged.curves.filter(({ id }) => !before.curves.some((curve) => curve.id === id));
+    assert.equal(made.length, 2, "both rims of the tube are control curves");
+    const { points, curves } = await documentOf(page);
+    for (const { id } of made) {
+      const places = curves[id].through.map((point) => points[point]);
+      const centre = [0, 1, 2].map((axis) => places.reduce((sum, at) => sum + at[axis], 0) / places.length);
+      // The radius is laid off in the tangent plane: where the bowl rises from it, corners laid on it lie a little nearer.
+      const least = centre[2] < 0.1 ? 0.98 : 0.9;
+      for (const at of places) {
+        const ratio = distance(at, centre) / 0.12;
+        assert.ok(ratio > least && ratio < 1.02, `a rim of ${distance(at, centre)}, asked for 0.12`);
+      }
+      assert.ok(Math.hypot(centre[0], centre[1]) < 0.15, `${centre} is where they come closest`);
+    }
+    await takeBack(page, "Merge", before);
+
+    // K: without its rims. With a pointer alone: the button shows the tube, and a click makes it, wherever it falls.
+    await page.keyboard.press("k");
+    await until(page, () => document.getElementById("option-keep").ariaPressed === "false");
+    await page.locator("#merge-closest").click();
+    await untilInspect(page, ({ marked }) => marked.lines === 14);
+    await page.mouse.click(...onRim(before, 1, left));
+    const free = await atRest(page, ({ act }) => act === "Merge");
+    assert.deepEqual(kinds(free), [[0, 2]]);
+    assert.deepEqual(free.curves.map(({ id }) => id), [1, 2], "no curve was left behind");
+    await takeBack(page, "Merge", before);
+  });
+});
+
+test("a second tube within one surface is a handle; where there is no room the hint says so before the click", async () => {
+  await withDocument(twoDiscs, async (page, before) => {
+    await page.keyboard.press("m");
+    await page.locator("#tube-radius").fill("0.12");
+    await page.locator("#tube-radius").press("Enter");
+    // Toward a rim there is no room for the hole.
+    const edge = onRim(before, 2, left).map((value, axis) => value + 0.08 * (between(before, 5, 6, 7, 8)[axis] - value));
+    await page.mouse.click(...between(before, 5, 6, 7, 8));
+    await untilInspect(page, ({ underWay }) => underWay);
+    await hover(page, edge, ({ hover, marked }) => hover === "surface 2" && marked.lines === 14);
+    await hint(page, "a rim or a curve is too near");
+    const near = between(before, 5, 6, 7, 8).map((value, axis) => value + [25, 0][axis]);
+    await hover(page, near, ({ marked }) => marked.lines === 14);
+    await hint(page, "The holes would meet");
+    await page.mouse.click(...near);
+    await untilInspect(page, ({ toast }) => toast?.includes("two holes would meet"));
+    await untilInspect(page, ({ document, underWay }) => document === before.document && !underWay);
+
+    // From disc to disc twice: the first tube makes them one surface, the second gives it a handle.
+    let state = before;
+    for (const [high, low] of [[[5, 8], [1, 4]], [[7, 8], [3, 4]]]) {
+      const was = state;
+      await page.mouse.click(...between(state, ...high));
+      await untilInspect(page, ({ underWay }) => underWay);
+      await hover(page, between(state, ...low), ({ marked }) => marked.lines === 14);
+      await page.mouse.click(...between(state, ...low));
+      state = await atRest(page, ({ act, document }) => act === "Merge" && document !== was.document);
+    }
+    assert.deepEqual(kinds(state), [[-2, 2]], "two less than the 0 of the tube between two discs");
+    await topology(page, "χ −2 · genus 1 · 2 boundaries · orientable");
+  });
+});
+
 test("two surfaces that cross are trimmed at the parts that were clicked, in a crease or smoothly", async () => {
   await withDocument(domeThroughDisc, async (page, before) => {
     assert.deepEqual(kinds(before), [[1, 1], [1, 1]]);
@@ -144,7 +235,7 @@ test("two surfaces that cross are trimmed at the parts that were clicked, in a c
       await untilInspect(page, ({ underWay }) => underWay);
       await drawn(page);
       const one = await picture(page);
-      await hover(page, border, ({ hover, marked }) => hover === "surface 1" && marked.tinted === 2 && marked.lines === 1);
+      await hover(page, border, ({ hover, marked }) => hover === "surface 1" && marked.skins === 2 && marked.tinted === 0 && marked.lines === 1);
       await drawn(page);
       assert.notDeepEqual((await picture(page)).data, one.data, "the line in which they meet is shown before the click");
       await page.mouse.click(...border);

@@ -1,4 +1,4 @@
-// Figure 3.1 of Welch's thesis by hand: from an empty document to a torus, with nothing but a pointer and keys.
+// Figure 3.1 of Welch's thesis by hand: from an empty document to a torus, with nothing but a pointer; Z is held to the axis while it drags.
 
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
@@ -10,9 +10,15 @@ import { drag } from "./support/pointer.mjs";
 /** Four places round a place of the window. */
 const ring = (middle, radius) => [[radius, 0], [0, -radius], [-radius, 0], [0, radius]].map(([x, y]) => [middle[0] + x, middle[1] + y]);
 
+/** Takes a tool in hand by its button. */
+async function take(page, tool) {
+  await page.locator(`#tool-${tool}`).click();
+  await untilInspect(page, (state) => state.tool === tool);
+}
+
 /** Clicks places and the first again: a closed curve. */
-async function loop(page, key, places, act) {
-  await page.keyboard.press(key);
+async function loop(page, tool, places, act) {
+  await take(page, tool);
   await assertOnCanvas(page, ...places);
   for (const [index, place] of places.entries()) {
     await page.mouse.click(...place);
@@ -72,7 +78,7 @@ async function onCurve(page, id) {
 }
 
 /** Clicks on a curve with the tool in hand and waits for the act. */
-async function take(page, id, act) {
+async function click(page, id, act) {
   await page.mouse.click(...(await onCurve(page, id)));
   return atRest(page, (state) => state.act === act);
 }
@@ -92,28 +98,28 @@ test("figure 3.1: a disc becomes a torus, is taken back to nothing, and comes ag
     await atRest(page);
     await choose(page, "file", "new");
     const empty = await atRest(page, ({ points }) => points.length === 0);
-    await page.keyboard.press("7");
+    await choose(page, "edit", "view-top");
     const { middle } = (await atRest(page, ({ camera }) => camera.forward[2] < -0.99)).camera;
 
     // (a, b) A curve and a sheet over it; (c) two curves drawn on the sheet.
-    await loop(page, "c", ring(middle, 190), "Curve");
-    await page.keyboard.press("s");
+    await loop(page, "curve", ring(middle, 190), "Curve");
+    await take(page, "sheet");
     await page.mouse.click(...(await onCurve(page, 1)));
     const sheet = await atRest(page, ({ surfaces }) => surfaces.length === 1);
-    const wall = newPoints(await loop(page, "d", ring(middle, 104), "Draw"), sheet);
+    const wall = newPoints(await loop(page, "draw", ring(middle, 104), "Draw"), sheet);
     const walled = await inspect(page);
-    const hole = newPoints(await loop(page, "d", ring(middle, 66), "Draw"), walled);
+    const hole = newPoints(await loop(page, "draw", ring(middle, 66), "Draw"), walled);
     assert.deepEqual([wall.length, hole.length], [4, 4]);
 
     // (d) What is inside the inner one is burnt out.
-    await page.keyboard.press("b");
+    await take(page, "burnout");
     await page.mouse.click(...middle);
     const burnt = await atRest(page, ({ act }) => act === "Burn out");
     assert.deepEqual([burnt.surfaces[0].summary.euler, burnt.surfaces[0].summary.boundaries], [0, 2]);
 
     // (e) Both are raised, the rim of the hole twice as high: the wall will run round the middle of the hole. Much nearer to
     // one end than to the other it would not hold the hole open: an ever narrower neck bends less.
-    await page.keyboard.press("v");
+    await take(page, "shape");
     await drag(page, [120, 460], [120, 415], { button: "right" });
     const radius = point(burnt, 1).at[0];
     // In two rounds, so that neither hides points of the other; from the front to the back, so that no rim hides its own.
@@ -127,15 +133,15 @@ test("figure 3.1: a disc becomes a torus, is taken back to nothing, and comes ag
     await page.locator('#scene-list [data-subject="curve 3"]').click();
     await page.locator("#match").click();
     await untilInspect(page, ({ tool }) => tool === "match");
-    const expanded = await take(page, 1, "Expand");
+    const expanded = await click(page, 1, "Expand");
     // As far as it jumps, it leaves no crumple: it rests at the energy that it has when it grows little by little.
     assert.ok(Math.abs(expanded.figures.energy - 30.3) < 0.3 && expanded.figures.residual < 1e-5, JSON.stringify(expanded.figures));
-    await page.keyboard.press("w");
+    await take(page, "sweep");
     await page.mouse.click(...(await onCurve(page, 1)));
     await untilInspect(page, ({ underWay }) => underWay);
-    const swept = await take(page, 3, "Sweep");
+    const swept = await click(page, 3, "Sweep");
     assert.equal(swept.surfaces.length, 2);
-    await page.keyboard.press("k");
+    await take(page, "crease");
     // One right after the other: while one is a crease, the surface can turn there and lets the hole close.
     const seams = [await onCurve(page, 1), await onCurve(page, 3)];
     await page.mouse.click(...seams[0]);
@@ -165,13 +171,13 @@ test("figure 3.1: a disc becomes a torus, is taken back to nothing, and comes ag
     // All the way back and forth again.
     let acts = 0;
     for (let state = torus; state.document !== empty.document; acts += 1) {
-      await page.keyboard.press("Control+z");
+      await page.locator("#undo").click();
       const before = state.document;
       state = await untilInspect(page, ({ document }) => document !== before);
     }
     assert.equal(acts, 25, "a curve, a sheet, two drawn curves, a hole, eight points raised twice, an expansion, a sweep, two smoothings");
     for (let state = await inspect(page); state.redo !== null; ) {
-      await page.keyboard.press("Control+Shift+Z");
+      await page.locator("#redo").click();
       const before = state.document;
       state = await untilInspect(page, ({ document }) => document !== before);
     }

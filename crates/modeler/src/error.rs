@@ -494,7 +494,9 @@ pub enum ModelError {
     #[error("{0} is closed: it has no rim")]
     NoRim(SurfaceId),
     /// A rim cannot be joined with itself.
-    #[error("both places lie on the same rim of {0}; a rim cannot be joined with itself")]
+    #[error(
+        "both places lie on the same rim of {0}, and it cannot be joined with itself: in its own sense opposite points would meet, and the surface would run through itself; in the other sense it would fold flat. Skin it with Sheet, or pick another rim"
+    )]
     SameRim(SurfaceId),
     /// Two rims cannot be bridged.
     #[error("no band fits between the rims: {0}")]

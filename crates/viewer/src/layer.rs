@@ -18,6 +18,8 @@ pub(crate) struct Marks {
     pub(crate) curve_styles: Vec<Style>,
     pub(crate) dots: Vec<Dot>,
     pub(crate) dot_styles: Vec<Style>,
+    /// Corners of skins, three for a triangle, with styles of curves.
+    pub(crate) skins: Vec<Dot>,
 }
 
 impl Marks {
@@ -27,6 +29,7 @@ impl Marks {
         self.curve_styles.clear();
         self.dots.clear();
         self.dot_styles.clear();
+        self.skins.clear();
     }
 
     /// Adds a polyline with numbers of its own.
@@ -35,6 +38,15 @@ impl Marks {
         self.floats.extend(places.flat_map(|at| at.to_array()));
         let count = (length(&self.floats) - first) / 3;
         append_polyline(&mut self.segments, first, count, closed, length(&self.curve_styles));
+        self.curve_styles.push(style);
+    }
+
+    /// Adds triangles with numbers of their own.
+    pub(crate) fn add_skin(&mut self, facets: &[[Vec3; 3]], style: Style) {
+        for at in facets.as_flattened() {
+            self.skins.push(Dot { at: length(&self.floats), style: length(&self.curve_styles) });
+            self.floats.extend(at.to_array());
+        }
         self.curve_styles.push(style);
     }
 
@@ -58,9 +70,11 @@ pub(crate) struct Layer {
     curve_styles: GrowingBuffer,
     dots: GrowingBuffer,
     dot_styles: GrowingBuffer,
-    groups: Option<[BindGroup; 2]>,
+    skins: GrowingBuffer,
+    groups: Option<[BindGroup; 3]>,
     pub(crate) segment_count: u32,
     pub(crate) dot_count: u32,
+    pub(crate) skin_count: u32,
 }
 
 impl Layer {
@@ -70,9 +84,11 @@ impl Layer {
             curve_styles: GrowingBuffer::new(device, "curve styles"),
             dots: GrowingBuffer::new(device, "dots"),
             dot_styles: GrowingBuffer::new(device, "dot styles"),
+            skins: GrowingBuffer::new(device, "skins"),
             groups: None,
             segment_count: 0,
             dot_count: 0,
+            skin_count: 0,
         }
     }
 
@@ -91,10 +107,12 @@ impl Layer {
     /// Writes what a picture may change.
     pub(crate) fn write_styles(&mut self, device: &Device, queue: &Queue, marks: &Marks) {
         self.dot_count = length(&marks.dots);
+        self.skin_count = length(&marks.skins);
         let moved = [
             self.curve_styles.write(device, queue, &marks.curve_styles),
             self.dots.write(device, queue, &marks.dots),
             self.dot_styles.write(device, queue, &marks.dot_styles),
+            self.skins.write(device, queue, &marks.skins),
         ];
         if moved.contains(&true) {
             self.groups = None;
@@ -106,12 +124,13 @@ impl Layer {
             self.groups = Some([
                 layouts.pull(device, "curves", [floats, &self.segments, &self.curve_styles]),
                 layouts.pull(device, "points", [floats, &self.dots, &self.dot_styles]),
+                layouts.pull(device, "skins", [floats, &self.skins, &self.curve_styles]),
             ]);
         }
     }
 
-    /// The bindings of curves and points, once made.
-    pub(crate) fn groups(&self) -> Option<&[BindGroup; 2]> {
+    /// The bindings of curves, points and skins, once made.
+    pub(crate) fn groups(&self) -> Option<&[BindGroup; 3]> {
         self.groups.as_ref()
     }
 }

@@ -153,6 +153,10 @@ pub struct Highlight {
     pub rims: Vec<Vec<Vec3>>,
     /// Tangent strips: how surfaces leave curves.
     pub strips: Vec<Strip>,
+    /// Translucent skins of what a tool would make or take.
+    pub skins: Vec<Skin>,
+    /// Lines that would become sharp edges, or soft.
+    pub edges: Vec<SharpOrSoft>,
     /// Lines that show what a tool would make.
     pub sketch: Vec<Vec<Vec3>>,
     /// Edges and faces of cages: a face by its corners, an edge by its ends.
@@ -170,6 +174,26 @@ pub struct NetPart {
     pub places: Vec<Vec3>,
     /// Whether it is selected; else the pointer is on it.
     pub is_selected: bool,
+}
+
+/// A translucent skin.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Skin {
+    /// Its triangles.
+    pub facets: Vec<[Vec3; 3]>,
+    /// Whether what it stands for would be refused.
+    pub is_refused: bool,
+}
+
+/// A line on a surface that would become an edge, or be smoothed.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SharpOrSoft {
+    /// The places along it.
+    pub places: Vec<Vec3>,
+    /// Whether the last is joined to the first.
+    pub closed: bool,
+    /// Whether the surface would run smoothly through it.
+    pub is_soft: bool,
 }
 
 /// What is tinted.

@@ -59,11 +59,22 @@ impl Looping {
     /// Lines across the loop, from its sides to its middle: a hint of the patch.
     #[must_use]
     pub fn spokes(&self, curve: CurveId) -> Vec<Vec<Vec3>> {
-        let sides = self.sides(curve);
-        let corners: Vec<Vec3> = sides.iter().filter_map(|side| side.first().copied()).collect();
-        let count = glam::DVec2::new(corners.len().max(1) as f64, 0.0).as_vec2().x;
-        let middle = corners.iter().sum::<Vec3>() / count;
+        let (sides, middle) = (self.sides(curve), self.middle(curve));
         sides.iter().filter_map(|side| side.get(side.len() / 2)).map(|at| vec![*at, middle]).collect()
+    }
+
+    /// Triangles from the sides of the loop to its middle: a likeness of the patch.
+    #[must_use]
+    pub fn fan(&self, curve: CurveId) -> Vec<[Vec3; 3]> {
+        let middle = self.middle(curve);
+        let edges = self.sides(curve).iter().flat_map(|side| side.windows(2));
+        edges.map(|ends| [ends[0], ends[1], middle]).collect()
+    }
+
+    fn middle(&self, curve: CurveId) -> Vec3 {
+        let corners = || self.sides(curve).iter().filter_map(|side| side.first());
+        let count = glam::DVec2::new(corners().count().max(1) as f64, 0.0).as_vec2().x;
+        corners().sum::<Vec3>() / count
     }
 }
 
@@ -84,6 +95,7 @@ mod tests {
         assert_eq!((looping.sides(one).len(), looping.sides(CurveId(2)).len()), (3, 0));
         let spokes = looping.spokes(one);
         assert!(spokes.iter().all(|spoke| spoke[1].distance(Vec3::new(1.0, 1.0, 0.0) / 3.0) < 1e-6));
+        assert_eq!((looping.fan(one).len(), looping.fan(one)[0][2]), (3, spokes[0][1]));
         looping.moved();
         assert!(looping.want(one, DVec3::X).is_some(), "the shape is another");
         let why = Some("no loop".to_owned());

@@ -9,6 +9,7 @@ use crate::mark_pass::MarkPass;
 use crate::pipeline::{DEPTH_FORMAT, Layouts, Workshop};
 use crate::scene::Scene;
 use crate::skeleton::{Skeleton, add_highlight};
+use crate::skin_pass::SkinPass;
 use crate::surface_pass::SurfacePass;
 use crate::theme::Theme;
 use crate::triad::add_triad;
@@ -37,6 +38,7 @@ pub(crate) struct Painter {
     surfaces: SurfacePass,
     curves: MarkPass,
     points: MarkPass,
+    skins: SkinPass,
 
     /// The numbers of the frame, on which surfaces and skeleton stand.
     floats: GrowingBuffer,
@@ -79,6 +81,7 @@ impl Painter {
             surfaces: SurfacePass::new(&workshop),
             curves: MarkPass::curves(&workshop),
             points: MarkPass::points(&workshop),
+            skins: SkinPass::new(&workshop),
             floats: GrowingBuffer::new(&device, "numbers"),
             has_frame: false,
             skeleton: Skeleton::default(),
@@ -206,6 +209,9 @@ impl Painter {
         if look.grid {
             self.background.draw_grid(&mut pass);
         }
+        if let Some([.., skins]) = self.overlay_layer.groups() {
+            self.skins.draw(&mut pass, skins, self.overlay_layer.skin_count);
+        }
         if self.has_frame && look.skeleton {
             self.draw_layer(&mut pass, &self.skeleton_layer);
         }
@@ -214,7 +220,7 @@ impl Painter {
 
     /// First what is hidden, then what is not.
     fn draw_layer(&self, pass: &mut RenderPass<'_>, layer: &Layer) {
-        let Some([curves, points]) = layer.groups() else { return };
+        let Some([curves, points, _]) = layer.groups() else { return };
         for is_hidden in [true, false] {
             self.curves.draw(pass, curves, 0..layer.segment_count, is_hidden);
             self.points.draw(pass, points, 0..layer.dot_count, is_hidden);

@@ -75,7 +75,7 @@ impl Rims {
 }
 
 /// The loops of edges that one triangle has.
-fn loops(triangles: &[u32]) -> Vec<Vec<u32>> {
+pub(crate) fn loops(triangles: &[u32]) -> Vec<Vec<u32>> {
     let mut edges: Vec<(u32, u32)> = Vec::with_capacity(triangles.len());
     for t in triangles.chunks_exact(3) {
         for (a, b) in [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])] {

@@ -5,6 +5,7 @@
 
 use crate::background_pass::{BACKGROUND_SHADER, GRID_SHADER};
 use crate::mark_pass::{CURVE_SHADER, POINT_SHADER};
+use crate::skin_pass::SKIN_SHADER;
 use crate::surface_pass::SURFACE_SHADER;
 use crate::uniforms::{Dot, Frame, Segment, Style, SurfaceStyle};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
@@ -47,6 +48,7 @@ fn shaders_are_valid() {
         (GRID_SHADER, vec!["grid_vertex", "grid_fragment"]),
         (SURFACE_SHADER, vec!["surface_vertex", "surface_fragment"]),
         (CURVE_SHADER, vec!["curve_vertex", "curve_fragment", "hidden_curve_fragment"]),
+        (SKIN_SHADER, vec!["skin_vertex", "skin_fragment"]),
         (POINT_SHADER, vec!["point_vertex", "point_fragment", "hidden_point_fragment"]),
     ];
     for (source, names) in entries {

@@ -24,6 +24,11 @@ const NET_SELECTED: f32 = 2.0;
 const THICKER: f32 = 0.9;
 /// Half the width of a line that shows what a tool would make.
 const SKETCH: f32 = 0.8;
+/// Opacity of a skin that shows what a tool would make or take.
+const SKIN: f32 = 0.34;
+/// Widths of the two banks of a line that would become an edge, and of the glow of one that would be smoothed.
+const SHARP: f32 = 1.8;
+const SOFT: f32 = 8.0;
 /// Width of the glow of a rim.
 const RIM_GLOW: f32 = 2.6;
 /// Radius of a control point.
@@ -164,6 +169,19 @@ pub(crate) fn add_highlight(marks: &mut Marks, camera: &Camera, highlight: &High
         let style = Style { fill, half_width: CURVE, hidden: 0.5, ..Style::default() };
         marks.add_polyline(highlight.ghost_line.iter().copied(), false, style);
     }
+    for skin in &highlight.skins {
+        let colour = if skin.is_refused { theme.boundary } else { theme.accent };
+        marks.add_skin(&skin.facets, Style { fill: colour.with_w(SKIN), ..Style::default() });
+    }
+    for edge in &highlight.edges {
+        let (fill, outline, outline_width) = if edge.is_soft {
+            (theme.accent, theme.accent.with_w(SKIN), SOFT)
+        } else {
+            (theme.halo, theme.accent, SHARP)
+        };
+        let style = Style { fill, outline, outline_width, half_width: CURVE, hidden: 0.5, flags: 0 };
+        marks.add_polyline(edge.places.iter().copied(), edge.closed, style);
+    }
     for line in &highlight.sketch {
         let fill = theme.accent.with_w(0.8);
         let style = Style { fill, half_width: SKETCH, hidden: 0.35, ..Style::default() };
@@ -280,7 +298,7 @@ fn add_ring(marks: &mut Marks, camera: &Camera, at: Vec3, normal: Vec3, theme: &
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::look::NetPart;
+    use crate::look::{NetPart, SharpOrSoft, Skin};
     use crate::sample;
     use ductile_spec::CurveId;
     #[cfg(target_arch = "wasm32")]
@@ -371,6 +389,23 @@ mod tests {
         });
         assert_eq!(edges[0].truncate(), theme.handle.truncate());
         assert!(edges[1].w < edges[0].w);
+    }
+
+    #[test]
+    fn a_skin_is_translucent_and_vermilion_where_it_would_be_refused() {
+        let (mut marks, camera, theme) = (Marks::default(), Camera::default(), Theme::new(false));
+        let facets = vec![[Vec3::ZERO, Vec3::X, Vec3::Y], [Vec3::X, Vec3::Y, Vec3::Z]];
+        let skins = [false, true].map(|is_refused| Skin { facets: facets.clone(), is_refused }).to_vec();
+        let edge = |is_soft| SharpOrSoft { places: vec![Vec3::ZERO, Vec3::X], closed: false, is_soft };
+        let edges = [false, true].map(edge).to_vec();
+        add_highlight(&mut marks, &camera, &Highlight { skins, edges, ..Highlight::default() }, &theme);
+        assert_eq!((marks.skins.len(), marks.segments.len()), (12, 2));
+        let fills = [0, 6].map(|k| marks.curve_styles[marks.skins[k].style as usize].fill);
+        assert_eq!(fills, [theme.accent, theme.boundary].map(|colour| colour.with_w(SKIN)));
+        let at = marks.skins[11].at as usize;
+        assert_eq!(Vec3::from_slice(&marks.floats[at..at + 3]), Vec3::Z);
+        let [sharp, soft] = [marks.curve_styles[2], marks.curve_styles[3]];
+        assert!(soft.outline_width > sharp.outline_width && soft.outline.w < sharp.outline.w);
     }
 
     #[test]

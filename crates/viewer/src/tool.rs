@@ -20,8 +20,10 @@ mod pair;
 mod path;
 mod preview;
 mod ribbon;
+mod room;
 mod selection;
 mod sketch;
+mod skin;
 mod surgery;
 #[cfg(test)]
 mod surgery_test;
@@ -37,10 +39,13 @@ pub use kind::ToolKind;
 pub use options::{Options, Toggle};
 pub use pair::{Pick, stretch};
 pub use path::Corner;
-pub use preview::{mean_radius, ties, tube};
+pub use preview::{Tube, drawn_ties, mean_radius, ties, tube};
 pub use ribbon::{handles_along, surface_of};
+pub use room::no_room;
 pub use selection::Selection;
 pub use sketch::Stroke;
+pub use skin::{Facet, least_skin, loft};
+pub use surgery::would_smooth;
 
 /// What a tool wants done.
 #[derive(Clone, Debug, PartialEq)]
@@ -130,6 +135,8 @@ pub struct Toolbox {
     kind: ToolKind,
     corners: Vec<Corner>,
     first: Option<Pick>,
+    /// The ends of a tube that is shown and waits to be made.
+    proposal: Option<[Place; 2]>,
     /// Where a stretch, the split of a face, or a part of a rim begins whose other end is awaited.
     end: Option<PointId>,
     /// The edge of the rim of a cage of which a part is to become a curve.
@@ -257,7 +264,9 @@ impl Toolbox {
         match key {
             ToolKey::Done if !self.corners.is_empty() => self.end_path(false, around),
             ToolKey::Done if !self.picked.is_empty() => self.fill_between(around.document, None),
+            ToolKey::Done if self.proposal.is_some() => self.make_proposed(around.radius),
             ToolKey::Back if self.corners.pop().is_some() || self.picked.pop().is_some() => Vec::new(),
+            ToolKey::Back | ToolKey::Escape if self.proposal.take().is_some() => Vec::new(),
             ToolKey::Escape if !self.picked.is_empty() => {
                 self.picked.clear();
                 Vec::new()
@@ -287,7 +296,8 @@ impl Toolbox {
     /// Whether Backspace belongs to the tool rather than to the selection.
     #[must_use]
     pub fn is_under_way(&self) -> bool {
-        !self.corners.is_empty() || self.first.is_some() || self.end.is_some() || !self.picked.is_empty()
+        let has_begun = self.first.is_some() || self.end.is_some() || self.proposal.is_some();
+        has_begun || !self.corners.is_empty() || !self.picked.is_empty()
     }
 
     /// Forgets what the model no longer has.
@@ -301,6 +311,7 @@ impl Toolbox {
         }
         let has = |id: SurfaceId| structure.surfaces.iter().any(|surface| surface.id == id);
         self.corners.retain(|corner| corner.surface.is_none_or(has));
+        self.proposal = self.proposal.filter(|ends| ends.iter().all(|end| has(end.surface)));
         let is_there = |id: &PointId| entry(structure, *id).is_some();
         self.end = self.end.filter(is_there);
         self.picked.retain(is_there);

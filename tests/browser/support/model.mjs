@@ -14,10 +14,10 @@ export function atRest(page, predicate = () => true, { timeout = 90_000 } = {}) 
   return untilInspect(page, rests, { timeout });
 }
 
-/** Opens a document from an address; the body gets the page and its state at rest. */
-export function withDocument(document, body) {
+/** Opens a document from an address; the body gets the page and its state at rest. Options as those of `withPage`. */
+export function withDocument(document, body, options = {}) {
   const extra = { "/spec.json": { type: "application/json", body: JSON.stringify(document) } };
-  return withPage({ viewport: wide, extra, query: "?spec=spec.json" }, async (page) => {
+  return withPage({ viewport: wide, extra, query: "?spec=spec.json", ...options }, async (page) => {
     const opened = await atRest(page, ({ name }) => name === document.name);
     await body(page, opened);
   });

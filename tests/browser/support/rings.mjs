@@ -91,6 +91,13 @@ export const domeThroughDisc = {
   },
 };
 
+/** A flat disc, surface 1 with its rim curve 1, and over it a bowl, surface 2 with its rim curve 2, whose lowest place is point 9. */
+export const bowlOverDisc = {
+  ...domeThroughDisc,
+  name: "Bowl over a disc",
+  points: { ...circle(1, 1.2), ...circle(5, 0.8, 0.9), 9: [0, 0, 0.5] },
+};
+
 /** A flat disc, surface 1 with its rim curve 1, and beside it a dome held up by point 9: surface 2, rim curve 2. */
 export const discAndDome = {
   ...domeThroughDisc,

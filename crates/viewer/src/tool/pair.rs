@@ -27,6 +27,9 @@ impl Toolbox {
             (ToolKind::Embed, true) => "Now click the surface that should pass through it.",
             (ToolKind::Glue, false) => "Click the first of two rims. It stays where it is.",
             (ToolKind::Glue, true) => "Now click the other rim.",
+            (ToolKind::Merge, _) if self.proposal.is_some() => {
+                "Enter or a click makes this tube. Wheel: radius, Esc: not so."
+            }
             (ToolKind::Merge, false) => "Click where the tube should begin.",
             (ToolKind::Merge, true) => "Click where it should end. Wheel: radius, Enter: closest.",
             (ToolKind::Trim, false) => "Click the part of one surface that should stay.",
@@ -55,10 +58,16 @@ impl Toolbox {
     /// The first place of a tool that wants two.
     #[must_use]
     pub fn first_place(&self) -> Option<Place> {
-        match self.first {
-            Some(Pick::Place(place)) => Some(place),
+        match (self.proposal, self.first) {
+            (Some([from, _]), _) | (None, Some(Pick::Place(from))) => Some(from),
             _ => None,
         }
+    }
+
+    /// The ends of the tube that is shown and waits to be made.
+    #[must_use]
+    pub fn proposed(&self) -> Option<[Place; 2]> {
+        self.proposal
     }
 
     pub(super) fn pick_sweep(&mut self, hit: Option<&Hit>, around: Surroundings<'_>) -> Vec<Act> {
@@ -137,6 +146,9 @@ impl Toolbox {
     }
 
     pub(super) fn pick_merge(&mut self, place: Option<Place>, suited: f64) -> Vec<Act> {
+        if self.proposal.is_some() {
+            return self.make_proposed(suited);
+        }
         let Some(to) = place else {
             return say("There is no surface here. A tube begins and ends on surfaces.");
         };
@@ -144,6 +156,17 @@ impl Toolbox {
         if from.at.distance(to.at) < f32::EPSILON {
             return say("The tube would end where it begins. Click another place.");
         }
+        self.proposal = Some([from, to]);
+        self.make_proposed(suited)
+    }
+
+    /// Shows a tube between places that were not clicked, the closest ones; it is made by Enter or a click.
+    pub fn propose(&mut self, ends: [Place; 2]) {
+        self.proposal = Some(ends);
+    }
+
+    pub(super) fn make_proposed(&mut self, suited: f64) -> Vec<Act> {
+        let Some([from, to]) = self.proposal else { return Vec::new() };
         self.conclude();
         let Options { radius, keep, .. } = self.options;
         let radius = radius.unwrap_or(suited);
@@ -180,12 +203,6 @@ impl Toolbox {
         }
     }
 
-    /// Ends a merge at places that were not clicked: the closest ones.
-    pub fn merge_between(&mut self, from: Place, to: Place, suited: f64) -> Vec<Act> {
-        self.first = Some(Pick::Place(from));
-        self.pick_merge(Some(to), suited)
-    }
-
     fn begin(&mut self, place: Place) -> Vec<Act> {
         self.first = Some(Pick::Place(place));
         Vec::new()
@@ -193,7 +210,7 @@ impl Toolbox {
 
     /// The tool begins anew; says whether the act that it has done was to be the other way round.
     fn conclude(&mut self) -> bool {
-        (self.first, self.end) = (None, None);
+        (self.first, self.end, self.proposal) = (None, None, None);
         std::mem::take(&mut self.options.reversed)
     }
 }

@@ -5,8 +5,9 @@ use super::Place;
 use glam::Vec3;
 use std::f32::consts::TAU;
 
-/// Ties between two curves: enough to show how the one runs along the other.
-const TIES: usize = 24;
+/// Ties between two curves: enough for a skin between them. Every so many are drawn, to show how the one runs along the other.
+const TIES: usize = 96;
+const DRAWN: usize = 4;
 /// Corners of a circle of the tube, and pieces of a strut along it.
 const CIRCLE: usize = 24;
 const PIECES: u8 = 10;
@@ -22,6 +23,12 @@ pub fn ties(one: &[Vec3], other: &[Vec3], closed: bool, reversed: bool) -> Vec<[
     }
     let [a, b] = [one, other].map(|line| resampled(line, closed, TIES));
     pair(&a, &b, closed, reversed)
+}
+
+/// The ties that are drawn.
+#[must_use]
+pub fn drawn_ties(ties: &[[Vec3; 2]]) -> Vec<Vec<Vec3>> {
+    ties.iter().step_by(DRAWN).map(|ends| ends.to_vec()).collect()
 }
 
 /// Pairs as many places of one line with those of another.
@@ -52,7 +59,7 @@ fn pair(a: &[Vec3], b: &[Vec3], closed: bool, reversed: bool) -> Vec<[Vec3; 2]> 
 }
 
 /// So many places along a polyline, at equal distances; the first of a closed one is not repeated.
-fn resampled(line: &[Vec3], closed: bool, count: usize) -> Vec<Vec3> {
+pub(super) fn resampled(line: &[Vec3], closed: bool, count: usize) -> Vec<Vec3> {
     let ends =
         line.iter().zip(line.iter().cycle().skip(1)).take(if closed { line.len() } else { line.len() - 1 });
     let pieces: Vec<(Vec3, Vec3, f32)> = ends.map(|(a, b)| (*a, *b, a.distance(*b))).collect();
@@ -72,12 +79,20 @@ fn resampled(line: &[Vec3], closed: bool, count: usize) -> Vec<Vec3> {
     out
 }
 
-/// The lines of a tube between two places: a circle in the tangent plane of each (the first two, closed), and struts
-/// that leave both surfaces upright.
+/// A tube between two places.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Tube {
+    /// A circle in the tangent plane of each place, closed by its first corner; and some struts.
+    pub lines: Vec<Vec<Vec3>>,
+    /// All struts. They leave both surfaces upright.
+    pub struts: Vec<Vec<Vec3>>,
+}
+
+/// The tube between two places.
 #[must_use]
-pub fn tube(from: Place, to: Place, radius: f32) -> Vec<Vec<Vec3>> {
+pub fn tube(from: Place, to: Place, radius: f32) -> Tube {
     let way = to.at - from.at;
-    let Some(direction) = way.try_normalize() else { return Vec::new() };
+    let Some(direction) = way.try_normalize() else { return Tube::default() };
     // Toward the other place; where that is beside it, toward the eye, as it was picked.
     let upright = |place: Place, ahead: Vec3| {
         let normal = place.normal.unwrap_or(ahead);
@@ -106,10 +121,10 @@ pub fn tube(from: Place, to: Place, radius: f32) -> Vec<Vec<Vec3>> {
         };
         (0..=PIECES).map(place).collect()
     };
-    let struts = pair(&first, &second, true, false).into_iter().step_by(EVERY).map(strut);
-    let mut lines: Vec<Vec<Vec3>> = struts.collect();
-    lines.splice(0..0, [first, second]);
-    lines
+    let struts: Vec<Vec<Vec3>> = pair(&first, &second, true, false).into_iter().map(strut).collect();
+    let circles = [first, second].map(|circle| [&circle[..], &circle[..1]].concat());
+    let lines = circles.into_iter().chain(struts.iter().step_by(EVERY).cloned()).collect();
+    Tube { lines, struts }
 }
 
 /// Mean distance of places from their centre: what a closed curve's control points give as its radius.
@@ -141,7 +156,7 @@ mod tests {
         let mut high = ring(36, 1.0, 2.0, 1.3);
         for _ in 0..2 {
             let made = ties(&low, &high, true, false);
-            assert_eq!(made.len(), TIES);
+            assert_eq!((made.len(), drawn_ties(&made).len()), (TIES, TIES / DRAWN));
             // A ring begins at one of as many places: half of such a step is the worst that can be.
             let worst = made.iter().map(|[a, b]| a.truncate().distance(b.truncate())).fold(0.0, f32::max);
             assert!(worst < 0.5 * TAU / TIES as f32 + 0.02, "{worst}");
@@ -166,16 +181,17 @@ mod tests {
     fn a_tube_has_its_radius_and_leaves_both_surfaces_upright() {
         let place = |z, normal| Place { surface: SurfaceId(1), at: Vec3::Z * z, normal: Some(normal) };
         // One normal as the eye saw it from the other side.
-        let lines = tube(place(0.0, -Vec3::Z), place(3.0, -Vec3::Z), 0.5);
-        assert_eq!(lines.len(), 2 + CIRCLE / EVERY);
-        for line in &lines[2..] {
+        let Tube { lines, struts } = tube(place(0.0, -Vec3::Z), place(3.0, -Vec3::Z), 0.5);
+        assert_eq!((lines.len(), struts.len()), (2 + CIRCLE / EVERY, CIRCLE));
+        assert!(lines[..2].iter().all(|circle| circle.len() == CIRCLE + 1 && circle[0] == circle[CIRCLE]));
+        for line in &struts {
             assert!(
                 line.iter().all(|at| (at.truncate().length() - 0.5).abs() < 1e-4),
                 "straight up: {line:?}"
             );
             assert!(line.is_sorted_by(|a, b| a.z < b.z));
         }
-        assert!(tube(place(1.0, Vec3::Z), place(1.0, Vec3::Z), 0.5).is_empty());
+        assert!(tube(place(1.0, Vec3::Z), place(1.0, Vec3::Z), 0.5).struts.is_empty());
     }
 
     #[test]

@@ -37,6 +37,16 @@ pub(super) fn burn_out(aim: Aim<'_>) -> Vec<Act> {
     }
 }
 
+/// Whether Crease would smooth a curve rather than crease it; none where it would refuse.
+#[must_use]
+pub fn would_smooth(document: &Document, curve: CurveId) -> Option<bool> {
+    match uses(document, curve) {
+        (2.., _) => Some(true),
+        (_, 1..) => Some(false),
+        (0 | 1, 0) => None,
+    }
+}
+
 pub(super) fn crease(aim: Aim<'_>, around: Surroundings<'_>) -> Vec<Act> {
     let Some(Hit::Curve { id, .. }) = aim.hit else {
         return region(aim).map_or_else(|no| no, |border| vec![Act::Edit(Edit::Crease { border })]);

@@ -168,6 +168,9 @@ fn crease_takes_curves_and_regions_and_smooths_what_is_creased() {
     for nothing in [curve(1), curve(3), None] {
         assert!(refuses(&click(&mut tools, nothing)));
     }
+    let (_, document) = model();
+    let shown = [1, 2, 3, 4].map(|id| would_smooth(&document, CurveId(id)));
+    assert_eq!(shown, [None, Some(false), None, Some(true)], "what is shown before the click");
 }
 
 #[test]
@@ -228,7 +231,27 @@ fn a_tube_has_the_radius_that_suits_or_that_was_chosen() {
     let [from, to] = [on(1, 0.0), on(2, 1.0)].map(|hit| Place::of(hit.as_ref()).unwrap());
     tools.options_mut().turn(Toggle::Keep);
     let edit = Edit::Merge { from: place(1, 0.0), to: place(2, 1.0), radius: 0.7, keep: false };
-    assert_eq!(tools.merge_between(from, to, 0.25), [Act::Edit(edit)]);
+    tools.propose([from, to]);
+    assert_eq!(key(&mut tools, ToolKey::Done), [Act::Edit(edit.clone())]);
+    assert!(!tools.is_under_way() && key(&mut tools, ToolKey::Done).is_empty(), "once is enough");
+    tools.propose([from, to]);
+    assert_eq!(click(&mut tools, None), [Act::Edit(edit)], "what is shown is what a click makes");
+}
+
+#[test]
+fn a_tube_that_was_proposed_is_given_up_first_and_then_the_place_that_was_picked() {
+    let mut tools = with(ToolKind::Merge);
+    click(&mut tools, on(1, 0.0));
+    let [from, to] = [on(1, 2.0), on(2, 1.0)].map(|hit| Place::of(hit.as_ref()).unwrap());
+    tools.propose([from, to]);
+    assert!(tools.first_place() == Some(from) && tools.hint().contains("Enter or a click"));
+    assert_eq!(key(&mut tools, ToolKey::Escape), []);
+    assert_eq!((tools.proposed(), tools.first_place().map(|place| place.at)), (None, Some(Vec3::ZERO)));
+    assert_eq!(key(&mut tools, ToolKey::Escape), []);
+    assert!(!tools.is_under_way());
+    tools.propose([from, to]);
+    tools.refresh(&Scene::default());
+    assert!(!tools.is_under_way(), "its surfaces are gone");
 }
 
 #[test]

@@ -172,6 +172,7 @@ impl Page {
                 }
             }
             "fill-all" => self.fill_all(),
+            "merge-closest" => self.merge_closest(),
             "make-compatible" => self.make_compatible(),
             _ => return self.cage_command(command),
         }

@@ -4,7 +4,7 @@ use super::dom;
 use super::menu;
 use super::page::{Page, act};
 use crate::tool::{Selection, ToolKind};
-use crate::{Highlight, Hit, number};
+use crate::{Highlight, Hit, Skin, number};
 use ductile_spec::{
     CurveId, Edit, Fill, FillInterior, FillJoin, FillStyle, Hole, Request, RibbonHole, SurfaceId,
 };
@@ -74,7 +74,7 @@ impl Page {
         }
     }
 
-    /// The loop that a click would fill, with lines from its sides to its middle; or the corners that were picked.
+    /// The loop that a click would fill, with a skin and lines from its sides to its middle; or the corners that were picked.
     pub(crate) fn mark_loop(&self, mark: &mut Highlight) {
         mark.selected.extend(self.tools.picked());
         let Some((curve, _)) = self.looped() else { return };
@@ -82,6 +82,7 @@ impl Page {
         if !sides.is_empty() {
             mark.sketch = sides.to_vec();
             mark.sketch.extend(self.looping.spokes(curve));
+            mark.skins.push(Skin { facets: self.looping.fan(curve), is_refused: false });
         }
     }
 

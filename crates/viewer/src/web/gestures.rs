@@ -33,6 +33,8 @@ pub(crate) struct Hand {
     pub(crate) hover_rim: Option<RimHit>,
     pub(crate) hover_view: Option<View>,
     pub(crate) hover_is_stale: bool,
+    /// Why the tube that is shown has no room, as the hint says it.
+    pub(crate) no_tube: Option<&'static str>,
     pub(crate) is_finger: bool,
     pivot: Vec3,
 }

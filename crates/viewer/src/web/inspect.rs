@@ -161,6 +161,9 @@ impl Page {
         let marks = self.highlight();
         let out = Object::new();
         put(&out, "tinted", number(marks.tinted.len()));
+        put(&out, "skins", number(marks.skins.len()));
+        put(&out, "edges", number(marks.edges.len()));
+        put(&out, "soft", number(marks.edges.iter().filter(|edge| edge.is_soft).count()));
         put(&out, "rims", number(marks.rims.len()));
         put(&out, "lines", number(marks.sketch.len()));
         put(&out, "strips", number(marks.strips.len()));

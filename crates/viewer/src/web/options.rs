@@ -22,7 +22,9 @@ impl Page {
     pub(crate) fn show_options(&self) {
         let kind = self.tools.kind();
         let mut any = matches!(kind, ToolKind::Merge | ToolKind::Displace | ToolKind::Fill);
-        dom::show(&dom::element("tube"), kind == ToolKind::Merge);
+        for id in ["tube", "merge-closest"] {
+            dom::show(&dom::element(id), kind == ToolKind::Merge);
+        }
         let has_angle = self.tools.options().ribbon && !self.tools.options().smooth;
         dom::show(&dom::element("join"), kind == ToolKind::Trim && has_angle);
         self.show_reach();

@@ -123,7 +123,10 @@ impl Page {
     fn show_hint(&self) {
         let hint = match &self.hand.drag {
             None if self.has_chosen_foot() => "Ctrl-click: one more place goes along. Shift-click: a pin.",
-            None => &self.why_no_loop().unwrap_or_else(|| self.tools.hint().to_owned()),
+            None => match self.why_no_tube() {
+                Some(why) => why,
+                None => &self.why_no_loop().unwrap_or_else(|| self.tools.hint().to_owned()),
+            },
             Some(drag) if drag.lock().is_some() => "Along the axis. The same key frees it, Esc: all back.",
             Some(_) => "Shift: normal · X, Y, Z: axis · Ctrl: grid · Esc: all back",
         };

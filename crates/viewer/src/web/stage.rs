@@ -229,6 +229,7 @@ impl Page {
             self.redraw();
         }
         self.update_hover();
+        self.watch_tube();
         self.update_panel();
         self.draw();
     }
@@ -292,7 +293,8 @@ impl Page {
             ToolKind::Cage if mark.hover.is_none() && self.hand.drag.is_none() => {
                 self.mark_new_cage(&mut mark)
             }
-            ToolKind::Shape | ToolKind::Sheet | ToolKind::Point | ToolKind::Ribbon | ToolKind::Cage => {}
+            ToolKind::Sheet => self.mark_sheet(&mut mark),
+            ToolKind::Shape | ToolKind::Point | ToolKind::Ribbon | ToolKind::Cage => {}
             ToolKind::Curve | ToolKind::Draw => self.mark_curve(&mut mark),
             ToolKind::Burnout | ToolKind::Crease | ToolKind::Split => self.mark_region(&mut mark),
             ToolKind::Sweep | ToolKind::Match => self.mark_ties(&mut mark),

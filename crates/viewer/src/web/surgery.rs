@@ -2,8 +2,11 @@
 
 use super::page::Page;
 use crate::input::Modifiers;
-use crate::tool::{Aim, Pick, Place, Selection, Surroundings, ToolKind, stretch, ties, tube};
-use crate::{Highlight, Hit, RimHit, Tinted, closest_places};
+use crate::tool::{
+    Aim, Pick, Place, Selection, Surroundings, ToolKey, ToolKind, Tube, drawn_ties, loft, no_room, stretch,
+    ties, tube,
+};
+use crate::{Highlight, Hit, RimHit, Skin, Tinted, closest_places};
 use ductile_spec::SurfaceId;
 use glam::{Vec2, Vec3};
 
@@ -80,35 +83,30 @@ impl Page {
         self.click_with(Aim { hit: hit.as_ref(), place, corner: None, surface, rim });
     }
 
-    /// Merges at the closest places of the first surface and the one under the pointer, or the only other one.
+    /// Shows the tube at the closest places of the first surface and the one under the pointer, or the only other one; if it
+    /// is shown already, makes it.
     pub(crate) fn merge_closest(&mut self) {
-        let Some(from) = self.tools.first_place() else {
+        if self.tools.proposed().is_some() {
+            self.tool_key(ToolKey::Done);
+            return;
+        }
+        let all: Vec<SurfaceId> = self.scene.structure.surfaces.iter().map(|span| span.id).collect();
+        let picked = self.tools.first_place().map(|place| place.surface);
+        let Some(from) = picked.or_else(|| all.first().copied().filter(|_| all.len() == 2)) else {
             self.notices.refusal("Click where the tube should begin first.");
             return;
         };
-        let others =
-            || self.scene.structure.surfaces.iter().map(|span| span.id).filter(|id| *id != from.surface);
+        let mut others = all.into_iter().filter(|id| *id != from);
         let other = match self.hand.hover {
-            Some(Hit::Surface { id, .. }) if id != from.surface => Some(id),
-            _ if others().count() == 1 => others().next(),
-            _ => None,
+            Some(Hit::Surface { id, .. }) if id != from => Some(id),
+            _ => others.next().filter(|_| others.next().is_none()),
         };
-        let places = other.and_then(|other| closest_places(&self.scene, from.surface, other));
-        let Some((from, to)) = places else {
-            self.notices.refusal("Point at the other surface, or click where the tube should end.");
-            return;
-        };
-        let acts = self.tools.merge_between(from, to, self.suited_radius());
-        self.perform(acts);
-    }
-
-    /// A region, or a surface in one piece, is tinted whole: no place in it counts more than another.
-    pub(crate) fn mark_region(&self, mark: &mut Highlight) {
-        mark.tinted.clear();
-        if let Some(Hit::Surface { id, triangle, .. }) = mark.hover {
-            let region = self.scene.region_of(triangle);
-            mark.tinted.push(region.map_or(Tinted::Surface(id), |region| Tinted::Region(id, region)));
-            mark.hover = None;
+        match other.and_then(|other| closest_places(&self.scene, from, other)) {
+            Some((from, to)) => {
+                self.tools.propose([from, to]);
+                self.refresh();
+            }
+            None => self.notices.refusal("Point at the other surface, or click where the tube should end."),
         }
     }
 
@@ -157,7 +155,9 @@ impl Page {
             && first != over
             && closed == too
         {
-            mark.sketch.extend(lines(ties(&one, &other, closed, self.tools.options().reversed)));
+            let ties = ties(&one, &other, closed, self.tools.options().reversed);
+            mark.sketch.extend(drawn_ties(&ties));
+            mark.skins.extend((self.tools.kind() == ToolKind::Sweep).then(|| between_ties(&ties, closed)));
         }
     }
 
@@ -186,7 +186,9 @@ impl Page {
         let over = self.hand.hover_rim.filter(|over| first.is_none_or(|first| first.index != over.index));
         let [one, other] = [first, over].map(|rim| rim.map(|rim| self.rims.places(&self.scene, rim.index)));
         if let (Some(one), Some(other)) = (&one, &other) {
-            mark.sketch = lines(ties(one, other, true, self.tools.options().reversed));
+            let ties = ties(one, other, true, self.tools.options().reversed);
+            mark.sketch = drawn_ties(&ties);
+            mark.skins.extend(self.tools.options().skirt.then(|| between_ties(&ties, true)));
         }
         mark.rims = [one, other].into_iter().flatten().collect();
     }
@@ -208,30 +210,61 @@ impl Page {
         }
     }
 
+    /// The tube that a click would make: to the pointer, or as it was proposed.
+    fn tube_ends(&self, hover: Option<Hit>) -> Option<[Place; 2]> {
+        let first = self.tools.first_place().filter(|_| self.tools.kind() == ToolKind::Merge)?;
+        self.tools.proposed().or_else(|| Some([first, place_of(hover)?]))
+    }
+
+    /// Why that tube would be refused, as far as the picture tells.
+    pub(crate) fn why_no_tube(&self) -> Option<&'static str> {
+        let ends = self.tube_ends(self.hand.hover)?;
+        no_room(&self.scene, &self.document, &self.rims, ends, self.tube_radius())
+    }
+
+    /// The hint says why a tube has no room as soon as it is so.
+    pub(crate) fn watch_tube(&mut self) {
+        if self.tools.kind() == ToolKind::Merge {
+            self.rims.refresh(&self.scene);
+        }
+        let why = self.why_no_tube();
+        if std::mem::replace(&mut self.hand.no_tube, why) != why {
+            self.refresh();
+        }
+    }
+
     /// The first place, and the tube to the pointer or the two surfaces that would be trimmed with the lines in which they meet.
     pub(crate) fn mark_places(&self, mark: &mut Highlight) {
         mark.tinted.clear();
         let first = self.tools.first_place();
         mark.ghost.extend(first.map(|place| place.at));
-        let over = match mark.hover {
-            Some(Hit::Surface { id, at, normal, .. }) => {
-                Some(Place { surface: id, at, normal: Some(normal) })
-            }
-            _ => None,
-        };
         if self.tools.kind() == ToolKind::Trim {
-            let both = [first, over].into_iter().flatten();
-            mark.tinted.extend(both.map(|place| Tinted::Surface(place.surface)));
             mark.sketch = self.trimmed_pair().map_or(&[][..], |pair| self.meetings.lines(pair)).to_vec();
+            for place in [first, place_of(mark.hover)].into_iter().flatten() {
+                self.mark_kept(mark, place);
+            }
             return;
         }
-        if let Some((from, to)) = first.zip(over) {
-            let radius = glam::DVec2::new(self.tube_radius(), 0.0).as_vec2().x;
-            mark.sketch = tube(from, to, radius);
-            for circle in mark.sketch.iter_mut().take(2) {
-                circle.extend(circle.first().copied());
+        if let Some([from, to]) = self.tube_ends(mark.hover) {
+            if self.tools.proposed().is_some() {
+                // A click makes this tube, wherever it falls.
+                mark.hover = None;
+                mark.ghost.push(to.at);
             }
+            let radius = glam::DVec2::new(self.tube_radius(), 0.0).as_vec2().x;
+            let Tube { lines, struts } = tube(from, to, radius);
+            let is_refused = self.hand.no_tube.is_some();
+            mark.skins.push(Skin { facets: loft(&struts, true), is_refused });
+            mark.sketch = lines;
         }
+    }
+}
+
+/// The place on a surface under the pointer.
+fn place_of(hover: Option<Hit>) -> Option<Place> {
+    match hover {
+        Some(Hit::Surface { id, at, normal, .. }) => Some(Place { surface: id, at, normal: Some(normal) }),
+        _ => None,
     }
 }
 
@@ -247,6 +280,7 @@ fn between(line: &[Vec3], closed: bool, from: Vec3, to: Vec3) -> Vec<Vec3> {
     (0..=steps).filter_map(|step| line.get((first + step) % count.max(1)).copied()).collect()
 }
 
-fn lines(ties: Vec<[Vec3; 2]>) -> Vec<Vec<Vec3>> {
-    ties.into_iter().map(|ends| ends.to_vec()).collect()
+fn between_ties(ties: &[[Vec3; 2]], closed: bool) -> Skin {
+    let lines: Vec<Vec<Vec3>> = ties.iter().map(|ends| ends.to_vec()).collect();
+    Skin { facets: loft(&lines, closed), is_refused: false }
 }
