@@ -63,8 +63,8 @@ fn sector(angle: f64) -> Workload {
             let reach = f64::from(row) * if spoke == 0 && row == 1 { 2.0 } else { 1.0 };
             let reach = reach.min(f64::from(row) + 0.9);
             shape.positions.push(DVec3::new(
-                reach * turn.cos(),
-                reach * turn.sin(),
+                reach * libm::cos(turn),
+                reach * libm::sin(turn),
                 0.3 * (turn - 2.0 * PI).max(0.0),
             ));
             if spoke + 1 < SPOKES {

@@ -80,7 +80,7 @@ fn of_the_edges_in_the_way_the_one_goes_first_whose_flip_leaves_the_flattest_pai
     };
     let bend = |places: &[DVec3; 5], [a, b]: [VertexId; 2], [c, d]: [VertexId; 2]| {
         let at = |v: VertexId| places[v.index()];
-        let normal = |p, q, r| (at(q) - at(p)).cross(at(r) - at(p)).normalize();
+        let normal = |p, q, r| (at(q) - at(p)).cross(at(r) - at(p)).normalize_or_zero();
         normal(a, b, c).angle_between(normal(b, a, d))
     };
     for heights in [[0.0, 0.5], [0.5, 0.0], [-0.3, 0.4], [0.4, -0.3]] {
