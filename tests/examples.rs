@@ -40,6 +40,10 @@ const KNOWN: [Known; Example::BUILT.len()] = [
     known(Example::BoredBall, (0, 0, true), 1046.301, 27.0),
 ];
 
+/// By how much of its energy the surface that a script leaves may differ from what its document opens to: the meshes are
+/// others. The most is 0.69 %, for the surface with three handles.
+const LIVE: f64 = 0.008;
+
 fn path(folder: &str, example: Example, ending: &str) -> String {
     format!("{}/{folder}/{}.{ending}", env!("CARGO_MANIFEST_DIR"), example.word())
 }
@@ -63,8 +67,16 @@ fn run(example: Example) -> Bench {
 
 #[test]
 fn every_built_example_is_what_its_script_gives() {
+    let mut strays = Vec::new();
     for example in Example::BUILT.into_iter().chain(Example::PATCHES) {
-        let made = run(example).document();
+        let mut bench = run(example);
+        let made = bench.document();
+        if let Some(known) = KNOWN.iter().find(|known| known.example == example) {
+            let live = bench.accept(Request::Describe).frame.figures.energy;
+            let off = live / known.energy - 1.0;
+            println!("{example:?}: energy {live:.4} on the script's own mesh, {:+.3} %", 100.0 * off);
+            strays.extend((off.abs() >= LIVE).then_some(example));
+        }
         let text = to_text(&made);
         let link = to_fragment(&made).len();
         println!("{example:?}: a link of {link} characters");
@@ -75,6 +87,8 @@ fn every_built_example_is_what_its_script_gives() {
         }
         assert_eq!(std::fs::read_to_string(&file).unwrap(), text, "{example:?}");
     }
+    // The live ball does not come to rest in the 600 steps that it has: its energy is two and a half times what it opens to.
+    assert_eq!(strays, [Example::BoredBall]);
 }
 
 #[test]

@@ -130,6 +130,10 @@ fn edit(dice: &mut Dice, model: &Model) -> Edit {
         25..=26 => {
             let other = dice.pick(&surfaces).unwrap_or(surface);
             let there = place(dice, model, model.surfaces.get(&other).map(|shape| &**shape));
+            if other != surface && dice.below(4) == 0 {
+                let (radius, keep) = (model.spacing() * (0.7 + dice.unit()), dice.coin());
+                return Edit::MergeClosest { first: surface, second: other, radius, keep };
+            }
             let (from, to) = (On { surface, at }, On { surface: other, at: there });
             Edit::Merge { from, to, radius: model.spacing() * (0.7 + dice.unit()), keep: dice.coin() }
         }

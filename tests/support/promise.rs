@@ -50,14 +50,12 @@ pub fn promise(model: &Model, edit: &Edit) -> Option<Vec<Vec<Kind>>> {
             let made = (one.0 + other.0, (one.1 + other.1).checked_sub(2)?, one.2 && other.2);
             Some(vec![instead(&[from.surface, to.surface], &[made])])
         }
+        Edit::MergeClosest { first, second, .. } => {
+            Some(vec![instead(&[*first, *second], &[tube([*first, *second], kind)?])])
+        }
         Edit::Merge { from, to, .. } => {
-            let (one, other) = (kind(from.surface)?, kind(to.surface)?);
-            let made = if from.surface == to.surface {
-                (one.0 - 2, one.1, one.2)
-            } else {
-                (one.0 + other.0 - 2, one.1 + other.1, one.2 && other.2)
-            };
-            Some(vec![instead(&[from.surface, to.surface], &[made])])
+            let ends = [from.surface, to.surface];
+            Some(vec![instead(&ends, &[tube(ends, kind)?])])
         }
         Edit::Smooth { curve } => {
             let (gone, made) = joined(model, *curve, &kind)?;
@@ -68,6 +66,16 @@ pub fn promise(model: &Model, edit: &Edit) -> Option<Vec<Vec<Kind>>> {
         Edit::DeleteSurface { surface } | Edit::Bake { surface } => Some(vec![instead(&[*surface], &[])]),
         _ => Some(vec![instead(&[], &[])]),
     }
+}
+
+/// What a tube between two surfaces makes of them, or of one.
+fn tube(ends: [SurfaceId; 2], kind: impl Fn(SurfaceId) -> Option<Kind>) -> Option<Kind> {
+    let [one, other] = [kind(ends[0])?, kind(ends[1])?];
+    Some(if ends[0] == ends[1] {
+        (one.0 - 2, one.1, one.2)
+    } else {
+        (one.0 + other.0 - 2, one.1 + other.1, one.2 && other.2)
+    })
 }
 
 /// The shape at a place, and by face slot what belongs to the region there.

@@ -200,19 +200,47 @@ impl Ground<'_> {
     /// # Errors
     /// [`ModelError::Unsolvable`] if there is no solver for such a mesh.
     fn finish(&self, shape: &mut SurfaceShape) -> Result<Score, ModelError> {
+        let bound = self.relaxed(shape)?;
+        let score = self.score(shape, &bound);
+        if score.unresolved == 0 {
+            shape.age = GROWN;
+        }
+        Ok(score)
+    }
+
+    /// Relaxes a surface that was joined as a skin is relaxed; gives what it costs as a start.
+    ///
+    /// # Errors
+    /// The same.
+    pub(crate) fn ease(&self, shape: &mut SurfaceShape) -> Result<f64, ModelError> {
+        self.finish(shape).map(|score| score.cost())
+    }
+
+    /// What a surface costs as a start, as it is.
+    ///
+    /// # Errors
+    /// The same.
+    pub(crate) fn cost(&self, shape: &SurfaceShape) -> Result<f64, ModelError> {
+        let mut bound = self.bind(shape, self.document.objective_of_surface(self.id))?;
+        bound.fit();
+        Ok(self.score(shape, &bound).cost())
+    }
+
+    fn relaxed(&self, shape: &mut SurfaceShape) -> Result<BoundSurface, ModelError> {
         let mut bound = self.rounds(shape, 1, (FINE_ROUNDS, Objective::ThinPlate))?;
         if self.is_fair() {
             drop(bound);
             bound = self.rounds(shape, 1, (FAIR_ROUNDS, Objective::Fair))?;
         }
+        Ok(bound)
+    }
+
+    fn score(&self, shape: &SurfaceShape, bound: &BoundSurface) -> Score {
         let asked = bound.motion(self.document, self.curves, shape).count();
         let unresolved = bound.unresolved() + asked;
-        if unresolved == 0 {
-            shape.age = GROWN;
-        }
         let energy = bound.energy();
         let angle = quality(&shape.mesh, &shape.positions).least_angle;
-        Ok(Score { unresolved, energy: if energy.is_nan() { f64::INFINITY } else { energy }, angle })
+        Score { unresolved, energy: if energy.is_nan() { f64::INFINITY } else { energy }, angle }
     }
 
     /// Whether the shape is to be `fair`. A thin plate is only its beginning then, and a long tube, say, must not go on to

@@ -163,6 +163,13 @@ impl Model {
     }
 
     fn raise_surface(&mut self, id: SurfaceId, beginning: Beginning) -> Result<(), ModelError> {
+        let shape = self.grow(id, beginning)?;
+        self.surfaces.insert(id, Arc::new(shape));
+        Ok(())
+    }
+
+    /// What a surface of the document begins as, on its curves as they are now.
+    pub(crate) fn grow(&mut self, id: SurfaceId, beginning: Beginning) -> Result<SurfaceShape, ModelError> {
         if !self.document.surfaces.contains_key(&id) {
             return Err(ModelError::NoSurface(id));
         }
@@ -170,9 +177,7 @@ impl Model {
         let is_graded = density::graded(self).contains(&id);
         let revision = self.next_revision();
         let ground = Ground { document: &self.document, curves: &self.curves, id };
-        let shape = build_surface(&ground, beginning, (spacing, is_graded), revision)?;
-        self.surfaces.insert(id, Arc::new(shape));
-        Ok(())
+        build_surface(&ground, beginning, (spacing, is_graded), revision)
     }
 
     /// Whether a fill could follow its curves.

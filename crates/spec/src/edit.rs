@@ -118,6 +118,17 @@ pub enum Edit {
         /// Whether their rims stay as control curves, or are freed.
         keep: bool,
     },
+    /// The same where two surfaces come closest to each other and have room for the holes (thesis section 7.4.3, `auto-merge`).
+    MergeClosest {
+        /// The one surface; the tube becomes part of it.
+        first: SurfaceId,
+        /// The other.
+        second: SurfaceId,
+        /// Radius of the holes, in model units.
+        radius: f64,
+        /// Whether their rims stay as control curves, or are freed.
+        keep: bool,
+    },
     /// Fills a loop of curves, of rims or of both with an exact patch (Salvi 2020).
     Fill {
         /// Which loop.
@@ -427,7 +438,7 @@ impl Edit {
             Self::Crease { .. } => "Crease",
             Self::Smooth { .. } => "Smooth",
             Self::Glue { .. } => "Glue",
-            Self::Merge { .. } => "Merge",
+            Self::Merge { .. } | Self::MergeClosest { .. } => "Merge",
             Self::Trim { .. } => "Trim",
             Self::Fill { .. } => "Fill",
             Self::FillNetwork { .. } => "Fill all",

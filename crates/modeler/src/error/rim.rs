@@ -47,6 +47,14 @@ pub enum RimError {
 /// Where two curves or rims have no room between them. What would be made there would be pinched.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum TouchError {
+    /// Every place of a surface is closest to itself.
+    #[error(
+        "{0} has no places closest to each other of its own: say where the tube begins and where it ends"
+    )]
+    ClosestToItself(SurfaceId),
+    /// A tube needs room between the surfaces.
+    #[error("{0} and {1} meet, so that no tube is between them: trim them, or move one of them")]
+    Meeting(SurfaceId, SurfaceId),
     /// They share a control point.
     #[error("{0} and {1} share {2}: a skin between them would be pinched there")]
     Share(CurveId, CurveId, PointId),

@@ -1,16 +1,17 @@
 //! `merge`: a tube between two places of two surfaces, or of one (thesis section 7.4.3). Both are pierced: a loop is drawn
 //! round each place, its inside is burnt out, and a band closes the space between the loops.
 
-use crate::error::ModelError;
+use crate::error::{ModelError, TouchError};
 use crate::model::{Model, round_to_digits};
 use crate::operation::s_loop::draw;
 use crate::operation::{burnout, delete, region};
 use crate::shape::{SurfaceShape, edit};
+use crate::surgery::easing;
 use crate::surgery::opening::{edges_around, region_at};
 use crate::surgery::rims::{Rim, band};
 use crate::surgery::tracing::Stop;
 use crate::{density, maintain};
-use ductile_mesh::{FaceId, SourceTag, measure, nearest_place, summary};
+use ductile_mesh::{FaceId, SourceTag, SurfaceTree, measure, nearest_place, summary};
 use ductile_spec::{CurveId, MAX_COORDINATE, Objective, On, SurfaceId};
 use glam::DVec3;
 
@@ -18,6 +19,12 @@ use glam::DVec3;
 const CORNERS: u32 = 4;
 /// Longest edges of a tube, as a part of its radius: twelve triangles go round it.
 const TUBE_SPACING: f64 = 0.5;
+
+/// Radii from a place to the nearest rim or control where there is room for the hole: its loop bulges between its corners.
+const ROOM: f64 = 1.25;
+
+/// Part of the radius up to which surfaces that come so near meet.
+const TOUCHING: f64 = 1e-6;
 
 /// Sine of the angle between way and normal up to which the way leads straight up: a facet leans by less.
 const STRAIGHT: f64 = 0.2;
@@ -41,8 +48,62 @@ pub(super) fn merge(model: &mut Model, from: On, to: On, radius: f64, keep: bool
     if keep {
         return stay_a_tube(model, (from.surface, face), radius);
     }
+    // A handle that nothing holds has no size of its own: there is no better start to look for.
+    let is_handle = from.surface == to.surface;
+    if !is_handle {
+        easing::refine(model, from.surface);
+    }
     delete::curve(model, one)?;
-    delete::curve(model, other)
+    delete::curve(model, other)?;
+    if !is_handle {
+        easing::begin(model, from.surface);
+    }
+    Ok(())
+}
+
+/// The same between the places at which two surfaces come closest, among those around which there is room for the hole.
+pub(super) fn merge_closest(
+    model: &mut Model,
+    [first, second]: [SurfaceId; 2],
+    radius: f64,
+    keep: bool,
+) -> Result<(), ModelError> {
+    if first == second {
+        return Err(TouchError::ClosestToItself(first).into());
+    }
+    if !(radius > 0.0 && radius <= MAX_COORDINATE) {
+        return Err(ModelError::BadRadius);
+    }
+    let (one, other) = (roomy(model, first, radius)?, roomy(model, second, radius)?);
+    let pair = one.closest(&other).ok_or(ModelError::NoRoom(first))?;
+    if pair.distance <= TOUCHING * radius {
+        return Err(TouchError::Meeting(first, second).into());
+    }
+    let [from, to] = pair.positions;
+    merge(model, On { surface: first, at: from }, On { surface: second, at: to }, radius, keep)
+}
+
+/// The faces of a surface around which there is room for a hole: no rim and no control is as near as its corners.
+fn roomy(model: &Model, id: SurfaceId, radius: f64) -> Result<SurfaceTree, ModelError> {
+    let shape = model.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?;
+    let mesh = &shape.mesh;
+    let mut is_held = vec![false; mesh.vertex_slots()];
+    shape.controlled().for_each(|v| is_held[v.index()] = true);
+    let held: Vec<DVec3> = mesh
+        .vertices()
+        .filter(|v| is_held[v.index()] || mesh.is_boundary_vertex(*v))
+        .map(|v| shape.positions[v.index()])
+        .collect();
+    let least = ROOM * radius;
+    let is_free = |at: DVec3| held.iter().all(|p| p.distance_squared(at) >= least * least);
+    let mut has_room = vec![false; mesh.vertex_slots()];
+    for v in mesh.vertices() {
+        has_room[v.index()] = is_free(shape.positions[v.index()]);
+    }
+    let tree = SurfaceTree::of_faces(mesh, &shape.positions, |f| {
+        mesh.face_vertices(f).iter().all(|v| has_room[v.index()])
+    });
+    if tree.is_empty() { Err(ModelError::NoRoom(id)) } else { Ok(tree) }
 }
 
 /// A thin plate between two rims does not stay a tube: some radii long, it swells to a ball, which bends less; a shorter

@@ -168,7 +168,7 @@ fn act(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result<(), ModelErr
         Edit::Propagate { surface } => propagate::propagate(model, *surface),
         Edit::SLoop { surface, along, closed } => s_loop::s_loop(model, *surface, along, *closed),
         Edit::Glue { from, to, skirt, reversed } => glue::glue(model, *from, *to, *skirt, *reversed),
-        Edit::Merge { from, to, radius, keep } => merge::merge(model, *from, *to, *radius, *keep),
+        Edit::Merge { .. } | Edit::MergeClosest { .. } => act_by_tube(model, edit),
         Edit::Fill { .. } | Edit::FillNetwork { .. } | Edit::Refill { .. } | Edit::Lean { .. } => {
             act_on_fill(model, relaxer, edit)
         }
@@ -214,6 +214,17 @@ fn act(model: &mut Model, relaxer: &Relaxer, edit: &Edit) -> Result<(), ModelErr
 fn rename(model: &mut Model, name: &str) -> Result<(), ModelError> {
     name.clone_into(&mut model.document_mut().name);
     Ok(model.document.validate()?)
+}
+
+/// The acts that make a tube.
+fn act_by_tube(model: &mut Model, edit: &Edit) -> Result<(), ModelError> {
+    match edit {
+        Edit::Merge { from, to, radius, keep } => merge::merge(model, *from, *to, *radius, *keep),
+        Edit::MergeClosest { first, second, radius, keep } => {
+            merge::merge_closest(model, [*first, *second], *radius, *keep)
+        }
+        _ => Ok(()),
+    }
 }
 
 /// The acts on fills.

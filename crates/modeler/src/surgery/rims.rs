@@ -6,6 +6,7 @@ use crate::operation::delete::forget_lost_curves;
 use crate::operation::{forget_lost, refresh_skeleton};
 use crate::rehydrate::has_extent;
 use crate::shape::{EmbeddedCurve, SurfaceShape, edit};
+use crate::surgery::arching::Arch;
 use crate::surgery::joining::{Told, United, say, sew, split, unite};
 use crate::surgery::opening::edges_of;
 use ductile_mesh::{
@@ -75,22 +76,36 @@ pub(crate) fn band(
     }
     for _ in 0..PATIENCE {
         let shape = model.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?;
+        let arch = Arch::between(shape, &first, &second);
         let sense = match (is_handle, reversed) {
             (true, false) => Sense::Oriented,
             (true, true) => Sense::Reversed,
+            // The ends of an arch run round opposite ways.
+            (false, _) if let Some(arch) = arch => {
+                if arch.is_opposite == reversed {
+                    second.reverse();
+                }
+                Sense::AsGiven
+            }
             (false, false) => Sense::Shortest,
             (false, true) => longest(shape, &first, &mut second),
         };
         let bridge = Bridge { one: first.clone(), other: second.clone(), is_closed: true, sense };
-        match shape.mesh.can_bridge(&bridge, &shape.positions) {
+        let arch = arch.filter(|_| !reversed);
+        let positions = arch.map(|arch| arch.unfolded(&shape.positions, &second));
+        let positions = positions.unwrap_or_else(|| shape.positions.clone());
+        match shape.mesh.can_bridge(&bridge, &positions) {
             Ok(()) => {
                 let revision = model.next_revision();
                 let shape = edit(model.surfaces.get_mut(&id).ok_or(ModelError::NoSurface(id))?);
                 let before = beside(&shape.mesh, &first);
-                shape.mesh.bridge(&bridge, &shape.positions).map_err(ModelError::NoBand)?;
+                let bridged = shape.mesh.bridge(&bridge, &positions).map_err(ModelError::NoBand)?;
                 let new = beside(&shape.mesh, &first).into_iter().find(|face| !before.contains(face));
                 propagate_orientation(&mut shape.mesh);
                 shape.revision = revision;
+                if let Some(arch) = arch {
+                    arch.raise(model, id, &bridged.rungs);
+                }
                 refresh_skeleton(model, id);
                 say(model, id, &told);
                 model.document.validate()?;
