@@ -59,7 +59,8 @@ impl Diagonal {
 
     /// Whether the surface is flat enough here for the flip to make sense: no dihedral angle of more than
     /// 90° across either diagonal, none made across the sides (or made worse), and the new triangles not
-    /// turned over in the plane of the old ones. Or else the two lie on one another, and the flip unfolds them.
+    /// turned over in the plane of the old ones. Or else the two lie on one another
+    /// at a rim, and the flip unfolds them.
     pub(super) fn is_flat_enough(&self, mesh: &Mesh, positions: &[DVec3]) -> bool {
         let [a, b, c, d] = self.points(positions);
         let area = |p: DVec3, q: DVec3, r: DVec3| (q - p).cross(r - p);
@@ -77,11 +78,18 @@ impl Diagonal {
         if new_a.dot(new_b) < 0.0 || !is_convex([a, b, c, d], upright) {
             return false;
         }
-        if is_fold && (old_c.dot(old_d) > -FLAT || new_a.dot(upright) < FLAT || new_b.dot(upright) < FLAT) {
-            return false;
+        let beyond = self.beyond(mesh);
+        if is_fold {
+            // Only beside a rim whose vertices have moved; elsewhere two sheets may well lie close to one another.
+            let is_at_rim = (if is_larger { &beyond[2..] } else { &beyond[..2] }).contains(&None);
+            let is_flat =
+                old_c.dot(old_d) <= -FLAT && new_a.dot(upright) >= FLAT && new_b.dot(upright) >= FLAT;
+            if !is_at_rim || !is_flat {
+                return false;
+            }
         }
         let sides = [(b, c, old_c, new_b), (c, a, old_c, new_a), (a, d, old_d, new_a), (d, b, old_d, new_b)];
-        sides.into_iter().zip(self.beyond(mesh)).all(|((p, q, before, after), beyond)| {
+        sides.into_iter().zip(beyond).all(|((p, q, before, after), beyond)| {
             beyond.is_none_or(|v| {
                 let outside = normal(q, p, positions[v.index()]);
                 let bend = outside.dot(after);
