@@ -28,7 +28,7 @@ const fn known(example: Example, kind: (i64, usize, bool), energy: f64, angle: f
 }
 
 const KNOWN: [Known; Example::BUILT.len()] = [
-    known(Example::Torus, (0, 0, true), 86.898, 25.0),
+    known(Example::Torus, (0, 0, true), 87.135, 26.5),
     known(Example::PartyHat, (-2, 4, true), 72.019, 30.0),
     known(Example::CappedCylinder, (2, 0, true), 25.058, 30.0),
     known(Example::GluedCylinders, (0, 2, true), 24.816, 30.0),
@@ -55,7 +55,8 @@ fn run(example: Example) -> Bench {
     let mut bench = Bench::new();
     for (act, number) in acts.into_iter().zip(1..) {
         if act == "rest" {
-            bench.rest(600);
+            // The bored ball rests folded after 600 steps, and makes way for what its document opens to.
+            bench.rest(1200);
             continue;
         }
         let edit: Edit = serde_json::from_value(act).unwrap_or_else(|e| panic!("{example:?} {number}: {e}"));
@@ -87,8 +88,7 @@ fn every_built_example_is_what_its_script_gives() {
         }
         assert_eq!(std::fs::read_to_string(&file).unwrap(), text, "{example:?}");
     }
-    // The live ball does not come to rest in the 600 steps that it has: its energy is two and a half times what it opens to.
-    assert_eq!(strays, [Example::BoredBall]);
+    assert_eq!(strays, []);
 }
 
 #[test]

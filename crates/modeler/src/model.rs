@@ -44,6 +44,8 @@ pub(crate) enum Making {
     Own,
     /// Moved controls, or steps with other budgets, brought them where they are.
     Worked,
+    /// Acts made them what they are; whether they come to rest without folds is not known yet.
+    Acted,
     /// Acts made them what they are, or what the document opens to is another shape or a worse one.
     Kept,
 }

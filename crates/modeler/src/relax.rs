@@ -32,6 +32,8 @@ const SLACK: f64 = 0.02;
 const MOST_STEPS: u32 = 600;
 /// Strain-limited parts of a motion that one step carries out (recipe, section 5).
 const SUBSTEPS: u32 = 4;
+/// Jacobian of a fit below which a surface counts as folded (recipe, section 2: J₀).
+const FOLDED: f64 = 0.5;
 
 /// How a relaxation stands.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -170,6 +172,11 @@ impl Relaxer {
             && (self.are_curves_quiet || self.curves.is_empty())
             && self.curves_at_rest.len() == self.curves.len()
             && self.curves_at_rest.values().all(|rests| *rests)
+    }
+
+    /// Whether a surface is folded anywhere, by its newest fits: no shape that its mesh resolves pays the price on folds.
+    pub(crate) fn is_folded(&self) -> bool {
+        self.surfaces.values().any(|bound| bound.solver.jacobians().any(|jacobian| jacobian < FOLDED))
     }
 
     /// Makes sure that there is a solver for each shape as it is now, fitted to it, and none for others.

@@ -95,27 +95,31 @@ impl<T: Real> Default for Ring<T> {
     }
 }
 
-/// Up to this total an open ring fills half a plane; a right angle later it is what it is.
-const BEND_FROM: f64 = 1.25 * PI;
+/// Up to this total, a corner of 315°, an open ring fills half a plane: a flat and even one then has a Jacobian of 4/7, which the
+/// barrier lets pass. Skins that are still crumpled often have more than 270° at a rim.
+const BEND_FROM: f64 = 1.75 * PI;
+/// From here on the ring is what it is.
+const BENT: f64 = 1.95 * PI;
 /// From here on no more is added than another quarter of π: a crumpled ring must not wind round and round.
 const BEND_TO: f64 = 2.25 * PI;
 
 /// What the angles of an open ring are scaled to fill, and how that grows with their sum.
 ///
-/// π up to 5/4 π, the sum itself from 7/4 π to 9/4 π, at most 5/2 π; a quadratic or cubic between, so that the slope is continuous.
+/// π up to 7/4 π, the sum itself from 1.95 π to 9/4 π, at most 5/2 π; a quadratic or cubic between, so that the slope is continuous.
 fn open_target<T: Real>(total: T) -> (T, T) {
-    let (zero, one, width) = (T::splat(0.0), T::splat(1.0), T::splat(0.5 * PI));
+    let (zero, one) = (T::splat(0.0), T::splat(1.0));
+    let (rising, falling) = (T::splat(BENT - BEND_FROM), T::splat(0.5 * PI));
     let clamp = |x: T, most: T| {
         let x = T::choose(x.less(zero), zero, x);
         T::choose(x.less(most), x, most)
     };
-    let rise = clamp((total - T::splat(BEND_FROM)) / width, one);
-    let own = clamp(total - T::splat(1.75 * PI), width);
-    let fall = clamp((total - T::splat(BEND_TO)) / width, one);
-    // The cubic through (0, 0) and (1, 3/4 π) with the slopes 0 and π/2.
-    let lifted = rise * rise * (T::splat(1.75 * PI) - T::splat(PI) * rise);
-    let target = T::splat(PI) + lifted + own + width * fall * (one - T::splat(0.5) * fall);
-    let while_rising = rise * (T::splat(3.5 * PI) - T::splat(3.0 * PI) * rise) / width;
+    let rise = clamp((total - T::splat(BEND_FROM)) / rising, one);
+    let own = clamp(total - T::splat(BENT), T::splat(BEND_TO - BENT));
+    let fall = clamp((total - T::splat(BEND_TO)) / falling, one);
+    // The cubic through (0, 0) and (1, 0.95 π) with the slopes 0 and 0.2 π.
+    let lifted = rise * rise * (T::splat(2.65 * PI) - T::splat(1.7 * PI) * rise);
+    let target = T::splat(PI) + lifted + own + falling * fall * (one - T::splat(0.5) * fall);
+    let while_rising = rise * (T::splat(5.3 * PI) - T::splat(5.1 * PI) * rise) / rising;
     (target, T::choose(rise.less(one), while_rising, one - fall))
 }
 
@@ -264,7 +268,7 @@ mod tests {
 
     #[test]
     fn an_open_ring_is_scaled_to_half_a_plane_until_it_turns_back() {
-        for (total, target, slope) in [(0.2, 1.0, 0.0), (1.0, 1.0, 0.0), (1.25, 1.0, 0.0), (1.75, 1.75, 1.0)]
+        for (total, target, slope) in [(0.2, 1.0, 0.0), (1.0, 1.0, 0.0), (1.75, 1.0, 0.0), (1.95, 1.95, 1.0)]
             .into_iter()
             .chain([(2.0, 2.0, 1.0), (2.25, 2.25, 1.0), (2.75, 2.5, 0.0), (9.0, 2.5, 0.0)])
         {

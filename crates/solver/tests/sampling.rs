@@ -84,7 +84,7 @@ fn sector(angle: f64) -> Workload {
 
 #[test]
 fn the_end_of_a_slit_costs_nothing_where_the_surface_is_flat() {
-    for angle in [1.0, 1.3, 1.5, 1.75, 2.0].map(|angle| angle * PI) {
+    for angle in [1.0, 1.5, 1.75, 1.95, 2.0].map(|angle| angle * PI) {
         let shape = sector(angle);
         for sampling in [Sampling::Everywhere, Sampling::Inside] {
             // At least one node inside, which is the one that takes over what rims give away.
@@ -115,7 +115,7 @@ fn what_a_corner_costs_does_not_jump_while_it_opens() {
 fn shaken() -> Vec<Workload> {
     let mut shapes: Vec<_> = [workload::disc(5), band(1, 6), band(2, 8), workload::moebius(30, 4, 0.4)]
         .into_iter()
-        .chain([1.35, 1.6, 2.0, 2.4].map(|angle| sector(angle * PI)))
+        .chain([1.35, 1.85, 2.0, 2.4].map(|angle| sector(angle * PI)))
         .map(|mut shape| {
             jitter(&mut shape, 0.03, 7);
             let rings = Rings::from_triangles(shape.positions.len(), &shape.triangles).unwrap();

@@ -31,8 +31,12 @@ impl Modeler {
     /// Whether the shapes rest, and perhaps not as their document's own.
     fn wants_settling(&self) -> bool {
         let has_shapes = !(self.model.surfaces.is_empty() && self.model.curves.is_empty());
-        let is_worked = self.model.making == Making::Worked && self.model.node_count() <= MOST_NODES;
-        has_shapes && is_worked && !self.is_holding() && self.relaxer.is_settled()
+        let is_worked = matches!(self.model.making, Making::Worked | Making::Acted);
+        has_shapes
+            && is_worked
+            && self.model.node_count() <= MOST_NODES
+            && !self.is_holding()
+            && self.relaxer.is_settled()
     }
 
     /// Acts and drags find a model that is whole: a copy out of sight is dropped, a slide is over at once.
@@ -93,11 +97,14 @@ impl Modeler {
         true
     }
 
-    /// What was built from the document and has come to rest is its own.
+    /// What was built from the document and has come to rest is its own. What acts made is kept, unless it rests folded.
     pub(super) fn note_rest(&mut self) {
         self.model.rests = self.relaxer.is_settled() && !self.is_holding();
         if self.model.making == Making::Opened && self.model.rests {
             self.model.making = if self.relaxer.is_stinted() { Making::Worked } else { Making::Own };
+        }
+        if self.model.making == Making::Acted && self.model.rests && !self.relaxer.is_folded() {
+            self.model.making = Making::Kept;
         }
     }
 
@@ -117,12 +124,14 @@ impl Modeler {
 
 /// What an act leaves: shapes that can settle, or such as are kept. An act that moved control points changed nothing that the
 /// document's own shape did not come to rest with before. Other acts change skeletons: what such a one opens to often rests
-/// less well than the mesh on which it was made. So do meshes of several densities, which an opening can only guess.
+/// less well than the mesh on which it was made. So do meshes of several densities, which an opening can only guess. Only
+/// where it comes to rest with folds is it tried all the same.
 pub(super) fn worked(before: &Model, now: &Model) -> Making {
     let mut moved = Document { points: now.document.points.clone(), ..(*before.document).clone() };
     carry_free(&before.document, &mut moved);
     let has_only_moved =
         moved == *now.document && before.document.points.keys().eq(now.document.points.keys());
-    let can_settle = before.making != Making::Kept && has_only_moved && density::graded(now).is_empty();
-    if can_settle { Making::Worked } else { Making::Kept }
+    let was_made = matches!(before.making, Making::Kept | Making::Acted);
+    let can_settle = !was_made && has_only_moved && density::graded(now).is_empty();
+    if can_settle { Making::Worked } else { Making::Acted }
 }
