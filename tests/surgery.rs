@@ -762,7 +762,8 @@ fn a_cylinder_through_a_ball_is_trimmed_at_the_part_that_stays() {
     assert_eq!(kinds, [(1, 0, 2, true)]);
     let kinds = act(&mut bench, Edit::Smooth { curve: seams[1] });
     assert_eq!(kinds, [(1, 0, 0, true)]);
-    bench.rest(600);
+    // It does not come to rest in the 600 steps that it has; then what its document opens to is tried out of sight, in vain.
+    bench.rest(1200);
 }
 
 #[test]
