@@ -145,8 +145,21 @@ impl Mesh {
     /// middle it lies.
     ///
     /// # Errors
-    /// What no split can mend. The mesh may have been split by then.
+    /// What no split can mend. The mesh is as it was then.
     pub fn make_room_to_bridge(
+        &mut self,
+        bridge: &Bridge,
+        positions: &[DVec3],
+    ) -> Result<Vec<(VertexId, [VertexId; 2])>, BridgeError> {
+        let mut trial = self.clone();
+        let made = trial.split_for_bridge(bridge, positions)?;
+        if !made.is_empty() {
+            *self = trial;
+        }
+        Ok(made)
+    }
+
+    fn split_for_bridge(
         &mut self,
         bridge: &Bridge,
         positions: &[DVec3],

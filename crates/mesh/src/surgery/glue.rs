@@ -96,8 +96,18 @@ impl Mesh {
     /// Splits edges and faces until none of them hinders the glue; gives every new vertex with those in whose middle it lies.
     ///
     /// # Errors
-    /// What no split can mend. The mesh may have been split by then.
+    /// What no split can mend. The mesh is as it was then.
     pub fn make_room(&mut self, seam: &Seam) -> Result<Vec<(VertexId, Vec<VertexId>)>, GlueError> {
+        if self.can_glue(seam) == Ok(()) {
+            return Ok(Vec::new());
+        }
+        let mut trial = self.clone();
+        let made = trial.split_for_glue(seam)?;
+        *self = trial;
+        Ok(made)
+    }
+
+    fn split_for_glue(&mut self, seam: &Seam) -> Result<Vec<(VertexId, Vec<VertexId>)>, GlueError> {
         let mut made = Vec::new();
         // A clash takes two or three splits, and there are at most so many as edges at the seam.
         let around = self.pairs(seam)?.len() + 1;

@@ -129,7 +129,7 @@ fn seams_are_glued_or_refused_with_their_offender() {
         assert!(is(&error), "{name}: {error}");
         let mut room = mesh.clone();
         assert!(room.make_room(&seam).is_err(), "{name}");
-        assert_eq!(validate(&room), Ok(()), "{name}");
+        assert_eq!(room.to_triangles(), mesh.to_triangles(), "{name}");
     }
 }
 
