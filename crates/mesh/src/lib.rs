@@ -54,7 +54,7 @@ pub use proximity::{ClosestPair, SurfaceTree, refine_pair};
 pub use source::SourceTag;
 pub use surgery::{
     Blocked, Bridge, BridgeError, Bridged, CrossingVertex, Cut, CutError, GlueError, InsertError, Meeting,
-    Path, PathError, Removed, Seam, Sense,
+    OnEdge, Path, PathError, Removed, Seam, Sense,
 };
 pub use topology::Mesh;
 pub use walk::Wedge;

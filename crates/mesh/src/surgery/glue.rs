@@ -1,6 +1,6 @@
 //! The glue: two stretches of boundary become one inner curve.
 //!
-//! Source: Welch 1995, §4.2.2 (mesh surgery). The stretches correspond vertex for vertex; [`Mesh::even_out`] makes them so,
+//! Source: Welch 1995, §4.2.2 (mesh surgery). The stretches correspond vertex for vertex; [`Mesh::correspond`] makes them so,
 //! and [`Mesh::make_room`] splits edges that would come to join the same two vertices. Closed loops are glued whole; open
 //! stretches may have common ends, which sews up a slit. Nothing is asked of orientation. With `n` edges the Euler
 //! characteristic grows by `n` less the number of vertices that vanish.
@@ -18,6 +18,15 @@ pub enum GlueError {
     /// A stretch has at least two vertices, a loop at least three.
     #[error("a stretch of {0} vertices is too short to be glued")]
     TooShort(usize),
+    /// Source nodes belong together one to one.
+    #[error("{0} nodes of one boundary cannot belong to {1} of the other")]
+    UnlikeNodes(usize, usize),
+    /// A node that belongs to one of the other boundary must lie on its own.
+    #[error("{0:?} does not lie on the boundary that is to be glued")]
+    NotOnRim(VertexId),
+    /// Nodes follow one another as they do on their boundary. Turn the boundary round if they run the other way.
+    #[error("{0:?} does not follow the node before it in the order of the boundary")]
+    OutOfOrder(VertexId),
     /// The two do not follow one another on the boundary.
     #[error("{0:?} and {1:?} do not follow one another on the boundary")]
     NotOnBoundary(VertexId, VertexId),
@@ -159,6 +168,18 @@ impl Mesh {
         made
     }
 
+    /// Whether two rims of as many vertices can be laid on one another, but for what [`Mesh::make_room`] mends.
+    pub(super) fn check_rims(&self, seam: &Seam) -> Result<(), GlueError> {
+        self.pairs(seam).map(drop)
+    }
+
+    /// The edge between two vertices that follow one another on the boundary.
+    pub(super) fn rim_edge(&self, a: VertexId, b: VertexId) -> Result<EdgeId, GlueError> {
+        let are_there = self.has_vertex(a) && self.has_vertex(b);
+        let edge = are_there.then(|| self.edge_between(a, b)).flatten();
+        edge.filter(|&e| self.is_boundary_edge(e)).ok_or(GlueError::NotOnBoundary(a, b))
+    }
+
     /// The edges that are laid on one another.
     fn pairs(&self, seam: &Seam) -> Result<Pairs, GlueError> {
         let (kept, gone) = (&seam.kept, &seam.gone);
@@ -182,12 +203,8 @@ impl Mesh {
                 }
             }
         }
-        let rim = |a: VertexId, b: VertexId| {
-            let edge = self.edge_between(a, b).filter(|&e| self.is_boundary_edge(e));
-            edge.ok_or(GlueError::NotOnBoundary(a, b))
-        };
         let pair = |(from, to): (usize, usize)| {
-            let (one, other) = (rim(kept[from], kept[to])?, rim(gone[from], gone[to])?);
+            let (one, other) = (self.rim_edge(kept[from], kept[to])?, self.rim_edge(gone[from], gone[to])?);
             // Two common ends and nothing between: an edge cannot be laid on itself.
             if one == other { Err(GlueError::Repeated(kept[from])) } else { Ok((one, other)) }
         };

@@ -10,6 +10,7 @@
 mod bridge;
 mod channel;
 mod collapse;
+mod correspond;
 mod cut;
 mod delete;
 mod flip;
@@ -21,6 +22,7 @@ mod sites;
 mod split;
 
 pub use bridge::{Bridge, BridgeError, Bridged, Sense};
+pub use correspond::OnEdge;
 pub use cut::{Cut, CutError};
 pub use glue::{GlueError, Seam};
 pub use insert::{CrossingVertex, InsertError};
