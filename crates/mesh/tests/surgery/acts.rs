@@ -1,8 +1,8 @@
 //! The acts of surgery, each with its promise.
 
 use ductile_mesh::{
-    Bridge, EdgeId, FaceId, Mesh, Path, Place, Seam, Sense, SourceTag, VertexId, boundary_loops, components,
-    dehydrate, primitive, propagate_orientation, reverse_face,
+    Bridge, EdgeId, FaceId, GlueError, Mesh, Path, Place, Seam, Sense, SourceTag, VertexId, boundary_loops,
+    components, dehydrate, primitive, propagate_orientation, reverse_face,
 };
 use glam::DVec3;
 
@@ -14,14 +14,13 @@ pub(crate) const KINDS: u8 = 18;
 /// A kind of act and three numbers to choose by.
 pub(crate) type Act = (u8, u32, u32, u32);
 
-/// By how much an act changes the kind of a surface.
+/// By how much an act changes the kind of a surface, and whether all of it has two sides then.
 #[derive(Debug)]
 pub(crate) struct Promise {
     euler: i64,
-    boundaries: std::ops::RangeInclusive<i64>,
-    components: std::ops::RangeInclusive<i64>,
-    /// `None` where one-sided surfaces may become two-sided; two-sided ones stay so.
-    is_orientable: Option<bool>,
+    boundaries: i64,
+    components: i64,
+    is_orientable: bool,
 }
 
 pub(crate) enum Outcome {
@@ -29,22 +28,31 @@ pub(crate) enum Outcome {
     Refused,
 }
 
+fn signed(n: usize) -> i64 {
+    i64::try_from(n).unwrap()
+}
+
 impl Promise {
     /// The surface stays what it is.
     fn nothing(before: &Census) -> Self {
-        Self { euler: 0, boundaries: 0..=0, components: 0..=0, is_orientable: Some(before.is_orientable()) }
+        Self::change(before, before)
+    }
+
+    /// It becomes what was reckoned.
+    fn change(before: &Census, after: &Census) -> Self {
+        Self {
+            euler: after.euler - before.euler,
+            boundaries: signed(after.boundaries) - signed(before.boundaries),
+            components: signed(after.components) - signed(before.components),
+            is_orientable: after.is_orientable(),
+        }
     }
 
     pub(crate) fn check(&self, before: &Census, after: &Census, act: Act) {
-        let change = |old: usize, new: usize| i64::try_from(new).unwrap() - i64::try_from(old).unwrap();
-        let says = || format!("{act:?}: {self:?}, but {:?} became {:?}", before.kind(), after.kind());
-        assert_eq!(after.euler - before.euler, self.euler, "{}", says());
-        assert!(self.boundaries.contains(&change(before.boundaries, after.boundaries)), "{}", says());
-        assert!(self.components.contains(&change(before.components, after.components)), "{}", says());
-        match self.is_orientable {
-            Some(is) => assert_eq!(after.is_orientable(), is, "{}", says()),
-            None => assert!(after.is_orientable() || !before.is_orientable(), "{}", says()),
-        }
+        let done = Self::change(before, after);
+        let kind =
+            |promise: &Self| (promise.euler, promise.boundaries, promise.components, promise.is_orientable);
+        assert_eq!(kind(&done), kind(self), "{act:?}: {:?} became {:?}", before.kind(), after.kind());
     }
 }
 
@@ -73,6 +81,17 @@ fn shape(which: usize) -> (Mesh, Vec<DVec3>) {
 
 fn pick<T: Copy>(from: &[T], by: u32) -> Option<T> {
     from.get(by as usize % from.len().max(1)).copied()
+}
+
+/// So many vertices of a rim, in its order, whichever comes first.
+fn some_of(rim: &[VertexId], by: u32, count: usize) -> Vec<VertexId> {
+    let hash = |k: &usize| (by ^ u32::try_from(*k).unwrap()).wrapping_mul(0x9e37_79b9).rotate_left(15);
+    let mut places: Vec<usize> = (0..rim.len()).collect();
+    places.sort_by_key(|k| hash(k).wrapping_mul(0x85eb_ca6b));
+    places.truncate(count);
+    places.sort_unstable();
+    places.rotate_left(by as usize % count);
+    places.into_iter().map(|k| rim[k]).collect()
 }
 
 fn share(by: u32) -> f64 {
@@ -213,32 +232,13 @@ impl World {
         if edges.is_empty() || mesh.can_cut(&edges).is_err() {
             return Outcome::Refused;
         }
-        // A vertex falls into as many parts as there are fans between the cuts.
-        let copies = |v: &VertexId| {
-            let cuts = edges.iter().filter(|&&e| mesh.edge_vertices(e).contains(v)).count();
-            if mesh.is_boundary_vertex(*v) { cuts } else { cuts.saturating_sub(1) }
-        };
-        let signed = |n: usize| i64::try_from(n).unwrap();
-        let euler = signed(path.vertices.iter().map(copies).sum()) - signed(edges.len());
-        let is_inside = !path.vertices.iter().any(|v| mesh.is_boundary_vertex(*v));
-        let is_orientable = before.is_orientable().then_some(true);
-        let promise = if is_inside && path.is_closed {
-            let rims = if is_two_sided(mesh, &path) { 2 } else { 1 };
-            // A curve with one side parts nothing.
-            Promise { euler, boundaries: rims..=rims, components: 0..=rims - 1, is_orientable }
-        } else if is_inside {
-            // A slit.
-            assert_eq!(euler, -1);
-            Promise {
-                euler,
-                boundaries: 1..=1,
-                components: 0..=0,
-                is_orientable: Some(before.is_orientable()),
-            }
-        } else {
-            let most = signed(edges.len());
-            Promise { euler, boundaries: -most..=most, components: 0..=most, is_orientable }
-        };
+        let after = Census::apart(mesh, |e| edges.contains(&e), |_| true);
+        let promise = Promise::change(before, &after);
+        if !path.vertices.iter().any(|v| mesh.is_boundary_vertex(*v)) {
+            // A slit, or a closed curve, which has two sides or one and parts the surface or not.
+            let kinds = if path.is_closed { [(0, 2), (0, 1)] } else { [(-1, 1); 2] };
+            assert!(kinds.contains(&(promise.euler, promise.boundaries)), "{promise:?}");
+        }
         trial.mesh.cut(&edges);
         trial.place_new();
         *self = trial;
@@ -265,9 +265,9 @@ impl World {
     /// Two boundaries less; two pieces become one, or one gets a handle or two crosscaps.
     fn joined(&self, before: &Census, is_same_piece: bool, is_one_sided: bool, is_oriented: bool) -> Promise {
         let stays = is_oriented || !is_same_piece || is_one_sided;
-        let components = if is_same_piece { 0..=0 } else { -1..=-1 };
-        let is_orientable = Some(before.is_orientable() && stays);
-        Promise { euler: 0, boundaries: -2..=-2, components, is_orientable }
+        let components = if is_same_piece { 0 } else { -1 };
+        let is_orientable = before.is_orientable() && stays;
+        Promise { euler: 0, boundaries: -2, components, is_orientable }
     }
 
     fn bridge(&mut self, a: u32, b: u32, c: u32) -> Outcome {
@@ -291,26 +291,32 @@ impl World {
         let mut trial = self.mesh.clone();
         propagate_orientation(&mut trial);
         std::mem::swap(&mut self.mesh, &mut trial);
-        let Some((mut kept, mut gone, is_same_piece, is_one_sided)) = self.two_loops(a, b) else {
+        let Some((kept, mut gone, is_same_piece, is_one_sided)) = self.two_loops(a, b) else {
             self.mesh = trial;
             return Outcome::Refused;
         };
         let before = Census::of(&self.mesh);
-        let count = kept.len().max(gone.len()) + 1;
-        for stretch in [&mut kept, &mut gone] {
-            // A loop is a stretch that comes back.
-            stretch.push(stretch[0]);
-            self.mesh.even_out(stretch, count);
-            stretch.pop();
-        }
-        let turn = c as usize % gone.len();
-        gone.rotate_left(turn);
         // Both run along their faces: laid against one another they keep the sense.
         let is_oriented = c.is_multiple_of(2);
         if is_oriented {
             gone.reverse();
         }
-        let seam = Seam { kept, gone, is_closed: true };
+        // Some nodes of the one belong to as many of the other.
+        let count = 1 + (b >> 8) as usize % kept.len().min(gone.len());
+        let (own, mut theirs) = (some_of(&kept, a, count), some_of(&gone, c, count));
+        let is_crossed = count > 3 && (b >> 24).is_multiple_of(8);
+        if is_crossed {
+            theirs.swap(0, 1);
+        }
+        let mut seam = Seam { kept, gone, is_closed: true };
+        match self.mesh.correspond(&mut seam, [&own, &theirs]) {
+            Ok(_) => assert!(!is_crossed, "{own:?} {theirs:?}"),
+            Err(error) => {
+                assert!(is_crossed && matches!(error, GlueError::OutOfOrder(_)), "{error}");
+                self.mesh = trial;
+                return Outcome::Refused;
+            }
+        }
         self.mesh.make_room(&seam).unwrap();
         self.mesh.glue(&seam);
         self.place_new();
@@ -335,8 +341,8 @@ impl World {
         self.mesh.make_room(&seam).unwrap();
         self.mesh.glue(&seam);
         self.place_new();
-        let is_orientable = Some(before.is_orientable());
-        Outcome::Done(Promise { euler: 1, boundaries: -1..=-1, components: 0..=0, is_orientable })
+        let is_orientable = before.is_orientable();
+        Outcome::Done(Promise { euler: 1, boundaries: -1, components: 0, is_orientable })
     }
 
     /// A face inside goes and leaves a hole; or any faces go, and what is left is counted.
@@ -347,18 +353,17 @@ impl World {
         if is_inside && !b.is_multiple_of(4) {
             let removed = self.mesh.remove_faces(|f| f == chosen);
             assert!(removed.faces == 1 && removed.gone.is_empty() && removed.split.is_empty());
-            let is_orientable = Some(before.is_orientable());
-            return Outcome::Done(Promise { euler: -1, boundaries: 1..=1, components: 0..=0, is_orientable });
+            let is_orientable = before.is_orientable();
+            return Outcome::Done(Promise { euler: -1, boundaries: 1, components: 0, is_orientable });
         }
         let mut around = Vec::new();
         self.mesh.ring_faces(self.mesh.face_vertices(chosen)[0], &mut around);
         let doomed: Vec<FaceId> = around.into_iter().filter(|f| (b >> (f.index() % 31)) & 1 == 0).collect();
         let is_left = |f: FaceId| !doomed.contains(&f);
-        let euler = euler_of(&self.mesh, is_left) - before.euler;
+        let promise = Promise::change(before, &Census::apart(&self.mesh, |_| false, is_left));
         self.mesh.remove_faces(|f| !is_left(f));
         self.place_new();
-        let is_orientable = before.is_orientable().then_some(true);
-        Outcome::Done(Promise { euler, boundaries: -9..=9, components: -9..=9, is_orientable })
+        Outcome::Done(promise)
     }
 
     fn append(&mut self, before: &Census, a: u32) -> Outcome {
@@ -369,13 +374,11 @@ impl World {
         for (new, p) in added.vertices.into_iter().flatten().zip(positions) {
             self.positions[new.index()] = p + DVec3::new(share(a), 0.5, 0.25);
         }
-        let count = |n: usize| i64::try_from(n).unwrap();
-        let (rims, pieces) = (count(more.boundaries), count(more.components));
         Outcome::Done(Promise {
             euler: more.euler,
-            boundaries: rims..=rims,
-            components: pieces..=pieces,
-            is_orientable: Some(before.is_orientable() && more.is_orientable()),
+            boundaries: signed(more.boundaries),
+            components: signed(more.components),
+            is_orientable: before.is_orientable() && more.is_orientable(),
         })
     }
 
@@ -388,13 +391,11 @@ impl World {
         let (less, left) = (Census::of(&part), Census::of(&rest));
         assert_eq!((less.components, less.euler + left.euler), (1, before.euler));
         self.mesh.remove_faces(|f| pieces.of(f) == gone);
-        let rims = -i64::try_from(less.boundaries).unwrap();
-        let is_orientable = Some(left.is_orientable());
         Outcome::Done(Promise {
             euler: -less.euler,
-            boundaries: rims..=rims,
-            components: -1..=-1,
-            is_orientable,
+            boundaries: -signed(less.boundaries),
+            components: -1,
+            is_orientable: left.is_orientable(),
         })
     }
 
@@ -407,44 +408,4 @@ impl World {
         let chosen: Vec<FaceId> = self.mesh.faces().filter(|f| (b >> (f.index() % 31)) & 1 == 0).collect();
         chosen.into_iter().for_each(|f| reverse_face(&mut self.mesh, f));
     }
-}
-
-/// Whether a closed curve inside has two sides: its left is carried once around.
-fn is_two_sided(mesh: &Mesh, path: &Path) -> bool {
-    let count = path.vertices.len();
-    let first = mesh.edge_faces(path.edges[count - 1]).0;
-    let mut left = first;
-    let (mut ring, mut faces) = (Vec::new(), Vec::new());
-    for k in 0..count {
-        let v = path.vertices[k];
-        let (behind, ahead) = (path.vertices[(k + count - 1) % count], path.vertices[(k + 1) % count]);
-        mesh.ring(v, &mut ring);
-        mesh.ring_faces(v, &mut faces);
-        let place = |w: VertexId| ring.iter().position(|&x| x == w).unwrap();
-        let n = ring.len();
-        let is_onward = faces[place(behind)] == left;
-        // Face `k` of a ring lies between its vertices `k` and `k + 1`.
-        left = if is_onward { faces[(place(ahead) + n - 1) % n] } else { faces[place(ahead)] };
-    }
-    left == first
-}
-
-/// The Euler characteristic of some faces, where a vertex counts once for each fan of them.
-fn euler_of(mesh: &Mesh, is_left: impl Fn(FaceId) -> bool) -> i64 {
-    let faces: Vec<FaceId> = mesh.faces().filter(|&f| is_left(f)).collect();
-    let mut edges: Vec<EdgeId> = faces.iter().flat_map(|&f| mesh.face_edges(f)).collect();
-    edges.sort_unstable();
-    edges.dedup();
-    let mut fans = 0;
-    for v in mesh.vertices() {
-        let mut around = Vec::new();
-        let is_closed = mesh.ring_faces(v, &mut around);
-        let left: Vec<bool> = around.into_iter().map(&is_left).collect();
-        let begins =
-            |k: usize| left[k] && !(if k > 0 { left[k - 1] } else { is_closed && left[left.len() - 1] });
-        let count = (0..left.len()).filter(|&k| begins(k)).count();
-        fans += if count == 0 && left.contains(&true) { 1 } else { count };
-    }
-    let count = |n: usize| i64::try_from(n).unwrap();
-    count(fans) - count(edges.len()) + count(faces.len())
 }

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use ductile_mesh::{FaceId, Labels, Mesh, components, regions};
+use ductile_mesh::{EdgeId, FaceId, Labels, Mesh, VertexId, components, regions};
 
 /// The kind of a surface.
 #[derive(Debug)]
@@ -85,6 +85,52 @@ impl Census {
             boundaries: rims.sets(on_rim.into_iter()),
             components: pieces.sets(used.into_iter()),
             is_one_sided: (0..triangles.len()).map(|f| cover.root(2 * f) == cover.root(2 * f + 1)).collect(),
+        }
+    }
+
+    /// What a mesh is once some of its edges are cut and only some of its faces stay, reckoned without doing it: from corners of
+    /// triangles that hang together, so that a vertex counts once for each fan that is left of it.
+    pub(crate) fn apart(
+        mesh: &Mesh,
+        is_cut: impl Fn(EdgeId) -> bool,
+        stays: impl Fn(FaceId) -> bool,
+    ) -> Self {
+        let forest = |count: usize| Forest((0..count).collect());
+        let slots = mesh.face_slots();
+        let (mut corners, mut pieces, mut cover) = (forest(3 * slots), forest(slots), forest(2 * slots));
+        let corner = |f: FaceId, v: VertexId| {
+            3 * f.index() + mesh.face_vertices(f).iter().position(|w| *w == v).unwrap()
+        };
+        let (mut edges, mut sides) = (0, Vec::new());
+        for e in mesh.edges() {
+            let [a, b] = mesh.edge_vertices(e);
+            let (f, g) = mesh.edge_faces(e);
+            let there: Vec<FaceId> = [Some(f), g].into_iter().flatten().filter(|f| stays(*f)).collect();
+            if let ([f, g], false) = (&there[..], is_cut(e)) {
+                edges += 1;
+                corners.join(corner(*f, a), corner(*g, a));
+                corners.join(corner(*f, b), corner(*g, b));
+                pieces.join(f.index(), g.index());
+                let up = |f: FaceId| (corner(f, b) + 3 - corner(f, a)) % 3 == 1;
+                let turned = usize::from(up(*f) == up(*g));
+                cover.join(2 * f.index(), 2 * g.index() + turned);
+                cover.join(2 * f.index() + 1, 2 * g.index() + 1 - turned);
+            } else {
+                edges += there.len();
+                sides.extend(there.into_iter().map(|f| (corner(f, a), corner(f, b))));
+            }
+        }
+        let sides: Vec<_> = sides.into_iter().map(|(a, b)| (corners.root(a), corners.root(b))).collect();
+        let mut rims = forest(3 * slots);
+        sides.iter().for_each(|&(a, b)| rims.join(a, b));
+        let own: Vec<usize> = mesh.faces().filter(|f| stays(*f)).map(|f| f.index()).collect();
+        let count = |n: usize| i64::try_from(n).unwrap();
+        let vertices = corners.sets(own.iter().flat_map(|f| [3 * f, 3 * f + 1, 3 * f + 2]));
+        Self {
+            euler: count(vertices) - count(edges) + count(own.len()),
+            boundaries: rims.sets(sides.iter().map(|side| side.0)),
+            components: pieces.sets(own.iter().copied()),
+            is_one_sided: own.iter().map(|f| cover.root(2 * f) == cover.root(2 * f + 1)).collect(),
         }
     }
 
