@@ -49,6 +49,9 @@ pub struct Bridge {
     pub one: Vec<VertexId>,
     /// Vertices of the other.
     pub other: Vec<VertexId>,
+    /// Source nodes of both. Where loops have as many, three or more, each is joined to one of the other if that can be: in order,
+    /// so that they lie nearest to each other.
+    pub nodes: [Vec<VertexId>; 2],
     /// Whether both are whole loops. The band of open ones begins and ends at their ends; that of loops anywhere.
     pub is_closed: bool,
     /// Which way.
@@ -85,7 +88,7 @@ impl Mesh {
     /// let poles = [2, 40].map(|f| ductile_mesh::FaceId::from_index(f));
     /// mesh.remove_faces(|f| poles.contains(&f));
     /// let [one, other] = boundary_loops(&mesh).try_into().expect("two holes");
-    /// mesh.bridge(&Bridge { one, other, is_closed: true, sense: Sense::Oriented }, &positions)?;
+    /// mesh.bridge(&Bridge { one, other, nodes: Default::default(), is_closed: true, sense: Sense::Oriented }, &positions)?;
     /// assert_eq!((summary(&mesh).genus, summary(&mesh).is_orientable), (1, true));
     /// # Ok::<(), ductile_mesh::BridgeError>(())
     /// ```
@@ -189,7 +192,7 @@ impl Mesh {
 
     /// The other boundary, turned as it is to lie along the first, and the rungs.
     fn band(&self, bridge: &Bridge, positions: &[DVec3]) -> Result<(Vec<VertexId>, Way), BridgeError> {
-        let Bridge { one, other, is_closed, sense } = bridge;
+        let Bridge { one, other, nodes, is_closed, sense } = bridge;
         self.check_boundaries(bridge)?;
         let turned = || other.iter().rev().copied().collect::<Vec<_>>();
         // Two boundaries that both run with their faces lie against one another in opposite order.
@@ -205,7 +208,13 @@ impl Mesh {
         let mut best: Option<(f64, Vec<VertexId>, Way)> = None;
         let mut blocked = None;
         for other in candidates {
-            match self.shortest(one, other, *is_closed, positions) {
+            let pairs = if *is_closed { pair_up([one, &other], nodes, positions) } else { Vec::new() };
+            let met = if pairs.is_empty() {
+                None
+            } else {
+                self.shortest(one, &other, *is_closed, (positions, &pairs)).ok()
+            };
+            match met.map_or_else(|| self.shortest(one, &other, *is_closed, (positions, &[])), Ok) {
                 Ok(band) if best.as_ref().is_none_or(|best| band.0 < best.0) => best = Some(band),
                 Ok(_) => {}
                 Err(error) => blocked = blocked.or(Some(error)),
@@ -245,18 +254,42 @@ impl Mesh {
     fn shortest(
         &self,
         one: &[VertexId],
-        mut other: Vec<VertexId>,
+        other: &[VertexId],
         is_closed: bool,
-        positions: &[DVec3],
+        guide: Guide<'_>,
     ) -> Result<(f64, Vec<VertexId>, Way), BridgeError> {
-        let prices = Prices::new(self, one, &other, positions);
+        let mut other = other.to_vec();
+        let prices = Prices::new(self, one, &other, guide);
         if is_closed {
             other.rotate_left(prices.best_start()?);
         }
-        let prices = if is_closed { Prices::new(self, one, &other, positions) } else { prices };
+        let prices = if is_closed { Prices::new(self, one, &other, guide) } else { prices };
         let (cost, way) = prices.cheapest_way(is_closed)?;
         Ok((cost, other, way))
     }
+}
+
+/// Positions, and vertices of the first boundary with those of the second to which they are to be joined.
+type Guide<'a> = (&'a [DVec3], &'a [(VertexId, VertexId)]);
+
+/// The nodes of two loops that belong together; none if they have not as many, or less than three.
+fn pair_up(
+    loops: [&[VertexId]; 2],
+    nodes: &[Vec<VertexId>; 2],
+    positions: &[DVec3],
+) -> Vec<(VertexId, VertexId)> {
+    let on =
+        |k: usize| -> Vec<VertexId> { loops[k].iter().copied().filter(|v| nodes[k].contains(v)).collect() };
+    let (own, theirs) = (on(0), on(1));
+    let count = own.len();
+    if count < 3 || theirs.len() != count {
+        return Vec::new();
+    }
+    let at = |v: VertexId| positions.get(v.index()).copied().filter(|p| p.is_finite()).unwrap_or(DVec3::ZERO);
+    let turned = |by: usize| own.iter().copied().zip(theirs.iter().copied().cycle().skip(by));
+    let cost = |by: usize| turned(by).map(|(v, w)| at(v).distance_squared(at(w))).sum::<f64>();
+    let best = (0..count).map(|by| (cost(by), by)).min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    best.map(|(_, by)| turned(by).collect()).unwrap_or_default()
 }
 
 /// What each rung would cost.
@@ -269,7 +302,7 @@ struct Prices {
 }
 
 impl Prices {
-    fn new(mesh: &Mesh, one: &[VertexId], other: &[VertexId], positions: &[DVec3]) -> Self {
+    fn new(mesh: &Mesh, one: &[VertexId], other: &[VertexId], (positions, pairs): Guide<'_>) -> Self {
         let (n, m) = (one.len(), other.len());
         let at =
             |v: VertexId| positions.get(v.index()).copied().filter(|p| p.is_finite()).unwrap_or(DVec3::ZERO);
@@ -280,6 +313,23 @@ impl Prices {
         for (k, price) in price.iter_mut().enumerate() {
             let uneven = (k / m) as f64 / n as f64 - (k % m) as f64 / m as f64;
             *price += 1e-9 * mean * uneven * uneven;
+        }
+        let places: Vec<_> = pairs
+            .iter()
+            .filter_map(|(v, w)| Some((one.iter().position(|a| a == v)?, other.iter().position(|b| b == w)?)))
+            .collect();
+        if !places.is_empty() {
+            // Rungs stay between pairs: so the band comes to each of them.
+            for (k, price) in price.iter_mut().enumerate() {
+                let stretches = places.iter().zip(places.iter().cycle().skip(1));
+                let is_between = |k: usize, a: usize, b: usize, n: usize| (k + n - a) % n <= (b + n - a) % n;
+                let mut within = stretches.map(|(from, to)| {
+                    is_between(k / m, from.0, to.0, n) && is_between(k % m, from.1, to.1, m)
+                });
+                if !within.any(|is| is) {
+                    *price = f64::INFINITY;
+                }
+            }
         }
         let mut blocked = None;
         let mut place: Vec<_> = other.iter().copied().zip(0..).collect();

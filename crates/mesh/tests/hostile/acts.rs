@@ -67,7 +67,13 @@ fn bridges_are_bands_or_refused_with_the_mesh_untouched() {
     for (name, positions) in hostile(&mesh, &good).into_iter().chain([("missing", vec![])]) {
         for sense in [Sense::Oriented, Sense::Reversed, Sense::AsGiven, Sense::Shortest] {
             let says = format!("{name}, {sense:?}");
-            let bridge = Bridge { one: one.clone(), other: other.clone(), is_closed: true, sense };
+            let bridge = Bridge {
+                one: one.clone(),
+                other: other.clone(),
+                nodes: Default::default(),
+                is_closed: true,
+                sense,
+            };
             let mut bridged = mesh.clone();
             let made = bridged.bridge(&bridge, &positions).unwrap_or_else(|e| panic!("{says}: {e}"));
             assert_eq!(made.faces.len(), one.len() + other.len(), "{says}");
@@ -90,7 +96,13 @@ fn bridges_are_bands_or_refused_with_the_mesh_untouched() {
         ("nobody", vec![other[0], other[1], nobody], |e| matches!(e, BridgeError::NotOnBoundary(..))),
     ];
     for (name, other, is) in bad {
-        let bridge = Bridge { one: one.clone(), other, is_closed: true, sense: Sense::Oriented };
+        let bridge = Bridge {
+            one: one.clone(),
+            other,
+            nodes: Default::default(),
+            is_closed: true,
+            sense: Sense::Oriented,
+        };
         let mut bridged = mesh.clone();
         let error = bridged.bridge(&bridge, &good).unwrap_err();
         assert!(is(&error), "{name}: {error}");

@@ -280,7 +280,7 @@ impl World {
         };
         let before = Census::of(&self.mesh);
         let sense = if c.is_multiple_of(2) { Sense::Oriented } else { Sense::Reversed };
-        let bridge = Bridge { one, other, is_closed: true, sense };
+        let bridge = Bridge { one, other, nodes: Default::default(), is_closed: true, sense };
         self.mesh.make_room_to_bridge(&bridge, &self.positions).unwrap();
         self.place_new();
         self.mesh.bridge(&bridge, &self.positions).unwrap();

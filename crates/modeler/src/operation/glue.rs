@@ -16,7 +16,7 @@ pub(super) fn glue(
     let (one, other) = (rim_at(model, from)?, rim_at(model, to)?);
     let (one, other) = ((from.surface, one), (to.surface, other));
     if skirt {
-        band(model, one, other, reversed).map(drop)
+        band(model, one, other, (reversed, true)).map(drop)
     } else {
         lay(model, one, other, reversed).map(drop)
     }

@@ -44,7 +44,7 @@ pub(super) fn merge(model: &mut Model, from: On, to: On, radius: f64, keep: bool
     let rims =
         [(from.surface, rim_of(model, from.surface, one)?), (to.surface, rim_of(model, to.surface, other)?)];
     let [first, second] = rims;
-    let face = band(model, first, second, false)?;
+    let face = band(model, first, second, (false, false))?;
     if keep {
         return stay_a_tube(model, (from.surface, face), radius);
     }

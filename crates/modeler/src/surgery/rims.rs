@@ -59,12 +59,12 @@ fn together(
 }
 
 /// Closes the space between two rims with a band. The rims become inner lines; the second surface becomes part of the first.
-/// Gives a face of the band.
+/// Where control points are to meet and both have as many, it joins them. Gives a face of the band.
 pub(crate) fn band(
     model: &mut Model,
     one: (SurfaceId, Rim),
     other: (SurfaceId, Rim),
-    reversed: bool,
+    (reversed, do_meet): (bool, bool),
 ) -> Result<FaceId, ModelError> {
     let id = one.0;
     let is_handle = one.0 == other.0;
@@ -90,7 +90,9 @@ pub(crate) fn band(
             (false, false) => Sense::Shortest,
             (false, true) => longest(shape, &first, &mut second),
         };
-        let bridge = Bridge { one: first.clone(), other: second.clone(), is_closed: true, sense };
+        let on = |rim| if do_meet { controls_on(shape, rim) } else { Rim::new() };
+        let nodes = [on(&first), on(&second)];
+        let bridge = Bridge { one: first.clone(), other: second.clone(), nodes, is_closed: true, sense };
         let arch = arch.filter(|_| !reversed);
         let positions = arch.map(|arch| arch.unfolded(&shape.positions, &second));
         let positions = positions.unwrap_or_else(|| shape.positions.clone());
@@ -175,7 +177,8 @@ fn best_turn(positions: &[DVec3], fixed: &Rim, turned: &Rim) -> (usize, f64) {
     all.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, f64::INFINITY))
 }
 
-/// Lays the second rim on the first. The curves of the second are no longer followed there.
+/// Lays the second rim on the first. The curves of the second are no longer followed there. If both have as many control
+/// points, control points come to lie on control points, of which those of the first stay.
 pub(crate) fn lay(
     model: &mut Model,
     one: (SurfaceId, Rim),
@@ -185,20 +188,16 @@ pub(crate) fn lay(
     let id = one.0;
     let is_handle = one.0 == other.0;
     let before = Arc::clone(model.surfaces.get(&other.0).ok_or(ModelError::NoSurface(other.0))?);
-    let (told, mut first, mut second) = together(model, one, other)?;
+    let (told, first, second) = together(model, one, other)?;
+    let own = model.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?;
+    let controls = [&first, &second].map(|rim| controls_on(own, rim));
     free(model, id, &second)?;
-    while first.len() != second.len() {
-        let rim = if first.len() < second.len() { &mut first } else { &mut second };
-        lengthen(model, id, rim)?;
-    }
-    let shape = model.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?;
-    // Both run with the surface to their left; one the other way lies along the other.
-    let turned: Rim = second.iter().rev().copied().collect();
-    let (plain, opposite) =
-        (best_turn(&shape.positions, &first, &second), best_turn(&shape.positions, &first, &turned));
-    let is_turned = if is_handle { true } else { opposite.1 <= plain.1 };
-    let (mut gone, start) = if is_turned == reversed { (second, plain.0) } else { (turned, opposite.0) };
-    gone.rotate_left(start);
+    let sense = if is_handle { Some(!reversed) } else { None };
+    let (first, gone) = if controls[0].len() == controls[1].len() && !controls[0].is_empty() {
+        meet(model, id, [first, second], &controls, (sense, reversed))?
+    } else {
+        even(model, id, [first, second], (sense, reversed))?
+    };
     sew_loops(model, id, first, gone)?;
     refresh_skeleton(model, id);
     say(model, id, &told);
@@ -206,6 +205,79 @@ pub(crate) fn lay(
     forget_lost(model);
     model.document.validate()?;
     Ok(id)
+}
+
+/// The control points of a rim, in order.
+fn controls_on(shape: &SurfaceShape, rim: &Rim) -> Rim {
+    rim.iter().copied().filter(|v| shape.mesh.is_source_vertex(*v)).collect()
+}
+
+/// Whether the second of two rims is to be turned round, if that is known, and whether it is to lie the other way round than
+/// lies nearest.
+type Wanted = (Option<bool>, bool);
+
+/// Two rims with as many vertices, whichever there are, turned as they lie nearest to each other.
+fn even(
+    model: &mut Model,
+    id: SurfaceId,
+    [mut first, mut second]: [Rim; 2],
+    (sense, reversed): Wanted,
+) -> Result<(Rim, Rim), ModelError> {
+    while first.len() != second.len() {
+        let rim = if first.len() < second.len() { &mut first } else { &mut second };
+        lengthen(model, id, rim, true)?;
+    }
+    let shape = model.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?;
+    let (is_turned, [plain, opposite]) = nearest(shape, &first, &second, (sense, reversed));
+    if is_turned {
+        second.reverse();
+    }
+    second.rotate_left(if is_turned { opposite } else { plain });
+    Ok((first, second))
+}
+
+/// Whether the second of two rims is to be turned round, and where it begins either way. Both run with the surface to their
+/// left; one the other way lies along the other.
+fn nearest(shape: &SurfaceShape, first: &Rim, second: &Rim, (sense, reversed): Wanted) -> (bool, [usize; 2]) {
+    let turned: Rim = second.iter().rev().copied().collect();
+    let [plain, opposite] = [second, &turned].map(|rim| best_turn(&shape.positions, first, rim));
+    let is_turned = sense.unwrap_or((opposite.1 <= plain.1) != reversed);
+    (is_turned, [plain.0, opposite.0])
+}
+
+/// Two rims whose control points correspond: those belong together which lie nearest to each other in order, and each stretch
+/// between two of them gets as many vertices as the longer one has (thesis section 4.2.2).
+fn meet(
+    model: &mut Model,
+    id: SurfaceId,
+    [first, mut second]: [Rim; 2],
+    [own, theirs]: &[Rim; 2],
+    wanted: Wanted,
+) -> Result<(Rim, Rim), ModelError> {
+    let shape = model.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?;
+    // One or two points run both ways.
+    let (one, other) = if own.len() < 3 { (&first, &second) } else { (own, theirs) };
+    let (is_turned, _) = nearest(shape, one, other, wanted);
+    let mut theirs = theirs.clone();
+    if is_turned {
+        second.reverse();
+        theirs.reverse();
+    }
+    let (start, _) = best_turn(&shape.positions, own, &theirs);
+    theirs.rotate_left(start);
+    let seam = Seam { kept: first, gone: second, is_closed: true };
+    let stretches = seam.stretches([own, &theirs]).map_err(ModelError::Unjoinable)?;
+    let (mut kept, mut gone) = (Rim::new(), Rim::new());
+    for [mut one, mut other] in stretches {
+        while one.len() != other.len() {
+            let shorter = if one.len() < other.len() { &mut one } else { &mut other };
+            lengthen(model, id, shorter, false)?;
+        }
+        // The last vertex of a stretch is the first of the next.
+        kept.extend(one.iter().take(one.len() - 1));
+        gone.extend(other.iter().take(other.len() - 1));
+    }
+    Ok((kept, gone))
 }
 
 /// Sews two loops vertex by vertex. Room is made by splits away from both, or of both alike.
@@ -243,15 +315,16 @@ fn edges_of_rim(mesh: &Mesh, rim: &Rim) -> Vec<ductile_mesh::EdgeId> {
     edges_of(mesh, rim, true).unwrap_or_default()
 }
 
-/// Splits the longest edge of a rim.
-fn lengthen(model: &mut Model, id: SurfaceId, rim: &mut Rim) -> Result<(), ModelError> {
+/// Splits the longest edge of a rim, or of a stretch of one.
+fn lengthen(model: &mut Model, id: SurfaceId, rim: &mut Rim, is_closed: bool) -> Result<(), ModelError> {
     let shape = model.surfaces.get(&id).ok_or(ModelError::NoSurface(id))?;
     let at = |v: VertexId| shape.positions[v.index()];
     let length = |k: usize| at(rim[k]).distance(at(rim[(k + 1) % rim.len()]));
-    let longest = (0..rim.len()).fold(0, |best, k| if length(k) > length(best) { k } else { best });
+    let edges = if is_closed { rim.len() } else { rim.len().saturating_sub(1) };
+    let longest = (0..edges).fold(0, |best, k| if length(k) > length(best) { k } else { best });
     let ends = [rim[longest], rim[(longest + 1) % rim.len()]];
     let edge = shape.mesh.edge_between(ends[0], ends[1]).ok_or(ModelError::NoRim(id))?;
     let new = split(model, id, edge)?;
-    insert_between(rim, ends, new);
+    rim.insert(longest + 1, new);
     Ok(())
 }

@@ -47,7 +47,7 @@ proptest! {
             other.reverse();
         }
         let sense = [Sense::Oriented, Sense::Reversed, Sense::AsGiven, Sense::Shortest][sense];
-        let bridge = Bridge { one: one.clone(), other: other.clone(), is_closed: true, sense };
+        let bridge = Bridge { one: one.clone(), other: other.clone(), nodes: Default::default(), is_closed: true, sense };
         prop_assert_eq!(mesh.can_bridge(&bridge, &positions), Ok(()));
         let before = mesh.face_count();
         let bridged = mesh.bridge(&bridge, &positions).unwrap();
@@ -88,7 +88,7 @@ proptest! {
         }
         // A stretch of the side, or all of it.
         let cut = |side: &[VertexId], k: usize| side[k.min(side.len() - 2)..].to_vec();
-        let bridge = Bridge { one: cut(&one, from), other: cut(&other, to), is_closed: false, sense: Sense::Oriented };
+        let bridge = Bridge { one: cut(&one, from), other: cut(&other, to), nodes: Default::default(), is_closed: false, sense: Sense::Oriented };
         let bridged = mesh.bridge(&bridge, &positions).unwrap();
         prop_assert_eq!((validate(&mesh), summary(&mesh).kind()), (Ok(()), (1, 1, 1, true)));
         prop_assert_eq!(bridged.faces.len(), bridge.one.len() + bridge.other.len() - 2);
@@ -115,7 +115,8 @@ fn a_bridge_from_a_piece_to_itself_is_a_handle_or_two_crosscaps() {
     for (sense, is_orientable) in [(Sense::Oriented, true), (Sense::Reversed, false)] {
         let (mut mesh, positions) = holed();
         let [one, other] = loops(&mesh);
-        mesh.bridge(&Bridge { one, other, is_closed: true, sense }, &positions).unwrap();
+        mesh.bridge(&Bridge { one, other, nodes: Default::default(), is_closed: true, sense }, &positions)
+            .unwrap();
         assert_eq!((validate(&mesh), summary(&mesh).kind()), (Ok(()), (0, 0, 1, is_orientable)));
     }
 }
@@ -126,8 +127,12 @@ fn the_band_lies_straight_wherever_the_loops_begin() {
         let (mut mesh, positions) = two_discs(12, 12, 0.05);
         let [one, mut other] = loops(&mesh);
         other.rotate_left(shift);
-        let bridged =
-            mesh.bridge(&Bridge { one, other, is_closed: true, sense: Sense::Shortest }, &positions).unwrap();
+        let bridged = mesh
+            .bridge(
+                &Bridge { one, other, nodes: Default::default(), is_closed: true, sense: Sense::Shortest },
+                &positions,
+            )
+            .unwrap();
         let longest = bridged
             .rungs
             .iter()
@@ -148,7 +153,7 @@ fn an_edge_in_the_way_is_named_and_split() {
     let squares = |k: u32| [[k, (k + 1) % 3, k + 3], [(k + 1) % 3, (k + 1) % 3 + 3, k + 3]];
     let mut mesh = Mesh::from_triangles(6, &[squares(0), squares(1), squares(2)].concat()).unwrap();
     let [one, other] = loops(&mesh);
-    let bridge = Bridge { one, other, is_closed: true, sense: Sense::Oriented };
+    let bridge = Bridge { one, other, nodes: Default::default(), is_closed: true, sense: Sense::Oriented };
     let old = mesh.to_triangles();
     let Err(BridgeError::SecondEdge(e)) = mesh.can_bridge(&bridge, &positions) else { panic!("no room") };
     let [a, b] = mesh.edge_vertices(e);
@@ -166,7 +171,13 @@ fn nonsense_is_refused() {
     let (mut mesh, positions) = two_discs(5, 6, 0.0);
     let [one, other] = loops(&mesh);
     let mut refusal = |one: &[VertexId], other: &[VertexId], is_closed: bool| {
-        let bridge = Bridge { one: one.to_vec(), other: other.to_vec(), is_closed, sense: Sense::Oriented };
+        let bridge = Bridge {
+            one: one.to_vec(),
+            other: other.to_vec(),
+            nodes: Default::default(),
+            is_closed,
+            sense: Sense::Oriented,
+        };
         let old = mesh.to_triangles();
         let error = mesh.bridge(&bridge, &positions).unwrap_err();
         assert_eq!(mesh.to_triangles(), old);
@@ -179,4 +190,50 @@ fn nonsense_is_refused() {
     assert_eq!(refusal(&one, &other[..1], false), BridgeError::TooShort(1));
     let nobody = VertexId(999);
     assert_eq!(refusal(&[nobody, one[0]], &other, false), BridgeError::NotOnBoundary(nobody, nobody));
+}
+
+#[test]
+fn nodes_that_belong_together_are_joined_by_rungs() {
+    // Ends of a cylinder, the nodes of which stand unevenly.
+    let ring = |n: usize, z: f64| -> Vec<DVec3> {
+        let turn = |k: usize| core::f64::consts::TAU * k as f64 / n as f64;
+        (0..n).map(|k| DVec3::new(libm::cos(turn(k)), libm::sin(turn(k)), z)).collect()
+    };
+    for sense in [Sense::AsGiven, Sense::Shortest] {
+        let (low, high) = (ring(12, 0.0), ring(17, 1.0));
+        let mut mesh = primitive::sheet(&low, 1).unwrap().0;
+        let slots = mesh.vertex_slots();
+        let one = (0..12).map(VertexId::from_index).collect::<Vec<_>>();
+        let added = mesh.append(&primitive::sheet(&high, 1).unwrap().0);
+        let other: Vec<_> = (0..17).map(|k| added.vertices[k].unwrap()).collect();
+        let mut positions = vec![DVec3::ZERO; mesh.vertex_slots()];
+        positions[..12].copy_from_slice(&low);
+        positions[slots..slots + 17].copy_from_slice(&high);
+        let nodes = [vec![one[1], one[5], one[10]], vec![other[16], other[3], other[11]]];
+        let bridge = Bridge { one, other, nodes: nodes.clone(), is_closed: true, sense };
+        let plain = Bridge { nodes: Default::default(), ..bridge.clone() };
+        let rungs = |bridge: &Bridge| {
+            let mut mesh = mesh.clone();
+            let made = mesh.bridge(bridge, &positions).unwrap();
+            assert_eq!(validate(&mesh), Ok(()));
+            made.rungs.iter().map(|e| mesh.edge_vertices(*e)).collect::<Vec<_>>()
+        };
+        // At 30°, 150°, 300° and at 339°, 64°, 233°: those meet which are nearest in order.
+        let pairs = [
+            (nodes[0][0], other_at(&bridge, 3)),
+            (nodes[0][1], other_at(&bridge, 11)),
+            (nodes[0][2], other_at(&bridge, 16)),
+        ];
+        let joins = |rungs: &[[VertexId; 2]], pair: (VertexId, VertexId)| {
+            rungs.iter().any(|ends| *ends == [pair.0, pair.1] || *ends == [pair.1, pair.0])
+        };
+        let (met, free) = (rungs(&bridge), rungs(&plain));
+        assert_eq!(met.len(), free.len());
+        assert!(pairs.iter().all(|pair| joins(&met, *pair)), "{met:?}");
+        assert!(!pairs.iter().all(|pair| joins(&free, *pair)), "it would not be by itself");
+    }
+}
+
+fn other_at(bridge: &Bridge, k: usize) -> VertexId {
+    bridge.other[k]
 }
