@@ -5,7 +5,7 @@ import { test } from "node:test";
 import { atRest, distance, documentOf, drawn, point, topology, withDocument } from "./support/model.mjs";
 import { inspect, until, untilInspect } from "./support/page.mjs";
 import { at, pixels } from "./support/pixels.mjs";
-import { moebius, ringOverDisc, ringedDisc, twoDiscs, twoRings } from "./support/rings.mjs";
+import { arcedHole, moebius, ringOverDisc, ringedDisc, twoDiscs, twoRings } from "./support/rings.mjs";
 
 /** A place on a curve, clear of panels and toasts and, if that can be, of control points: the sample farthest to the left. */
 function onCurve(state, id) {
@@ -103,6 +103,34 @@ test("a split doubles the curve; both sides move apart", async () => {
     assert.deepEqual([cut.surfaces.length, cut.curves.length, cut.points.length], [2, 3, 12]);
     await page.keyboard.press("Control+z");
     assert.equal((await atRest(page, ({ act }) => act === "Undo Split")).document, before.document);
+  });
+});
+
+test("a sheet fills a hole between two curves: both are marked over either, and a click on one fills it", async () => {
+  await withDocument(arcedHole, async (page, before) => {
+    assert.deepEqual(before.surfaces.map(({ summary }) => [summary.euler, summary.boundaries]), [[0, 2]]);
+    await drawn(page);
+    const hole = middleOf(before, 1);
+    const plain = await pixels(page);
+    await page.keyboard.press("s");
+    // The rim of the disc is closed: by itself it is the loop.
+    await hover(page, onCurve(before, 1), ({ hover, marked }) => hover === "curve 1" && marked.skins === 1 && marked.lines === 0);
+    for (const arc of [3, 2]) {
+      await hover(page, onCurve(before, arc), ({ hover, marked }) => hover === `curve ${arc}` && marked.lines === 2 && marked.skins === 1);
+    }
+    await drawn(page);
+    const skinned = await pixels(page);
+    if (process.env.PICTURES) await page.screenshot({ path: `${process.env.PICTURES}/sheet-in-arcs.png` });
+    assert.ok(distance(at(plain, ...hole), at(skinned, ...hole)) > 6, "the skin is shown in the hole");
+    const filled = await clickFor(page, onCurve(before, 2), "Sheet");
+    assert.deepEqual(filled.surfaces.map(({ summary }) => [summary.euler, summary.boundaries]), [[0, 2], [1, 1]]);
+    assert.equal(filled.curves.length, 3, "both lie on the same arcs");
+    await page.mouse.move(80, 300);
+    await drawn(page);
+    if (process.env.PICTURES) await page.screenshot({ path: `${process.env.PICTURES}/sheet-in-arcs-filled.png` });
+    assert.ok(brightness(at(await pixels(page), ...hole)) < brightness(at(plain, ...hole)) - 20, "the ground shows through no more");
+    await page.keyboard.press("Control+z");
+    assert.equal((await atRest(page, ({ act }) => act === "Undo Sheet")).document, before.document);
   });
 });
 

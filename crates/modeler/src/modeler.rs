@@ -167,8 +167,8 @@ impl Modeler {
                 let surface = trial.surface;
                 Ok(Outcome { reach: Some(Reach { surface, segments }), ..Outcome::default() })
             }
-            Request::Loop { curve, at } => {
-                let found = operation::found_loop(&self.model, curve, at);
+            Request::Loop { curve, at, sheet } => {
+                let found = operation::found_loop(&self.model, curve, at, sheet);
                 Ok(Outcome { found: Some(found), ..Outcome::default() })
             }
             Request::Seams => {
@@ -470,7 +470,13 @@ fn label(request: &Request) -> &'static str {
         Request::Export(_) => "Export",
         Request::Meet { .. } => "Meet",
         Request::Reach { .. } => "Reach",
-        Request::Loop { .. } => "Fill",
+        Request::Loop { sheet, .. } => {
+            if *sheet {
+                "Sheet"
+            } else {
+                "Fill"
+            }
+        }
         Request::Seams => "Seams",
         Request::Describe => "Describe",
     }

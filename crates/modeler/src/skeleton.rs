@@ -23,14 +23,14 @@ const DIAGONAL_WEIGHT: f64 = 1e-3;
 /// Significant digits of the hints where free skeleton vertices lie.
 const HINT_DIGITS: usize = 4;
 
-/// The skeleton of a sheet in a closed curve with the given control points.
-pub(crate) fn sheet_skeleton(curve: CurveId, boundary: &[(PointId, DVec3)]) -> Skeleton {
+/// The skeleton of a sheet in a loop of control points with the given curves along it.
+pub(crate) fn sheet_skeleton(boundary: &[(PointId, DVec3)], curves: Vec<Embedding>) -> Skeleton {
     let corners: Vec<DVec3> = boundary.iter().map(|(_, at)| *at).collect();
     let triangles = if corners.len() > MOST_SEARCHED { zigzag(corners.len()) } else { least_area(&corners) };
     Skeleton {
         vertices: boundary.iter().map(|(id, _)| SkeletonVertex::Control(*id)).collect(),
         triangles,
-        curves: vec![Embedding { curve, along: indices(0, corners.len()) }],
+        curves,
     }
 }
 
@@ -126,7 +126,7 @@ fn indices(first: u32, count: usize) -> Vec<u32> {
 
 /// The triangulation of a closed polygon in space with the least area (Barequet and Sharir 1995), by
 /// dynamic programming over its chords.
-fn least_area(corners: &[DVec3]) -> Vec<[u32; 3]> {
+pub(crate) fn least_area(corners: &[DVec3]) -> Vec<[u32; 3]> {
     let n = corners.len();
     let mut cost = vec![0.0_f64; n * n];
     let mut apex = vec![0_usize; n * n];
@@ -266,7 +266,7 @@ mod tests {
     #[test]
     fn sheets_and_sweeps_are_discs_and_cylinders() {
         for n in 3..12 {
-            let sheet = sheet_skeleton(CurveId(1), &polygon(n, 0.0));
+            let sheet = sheet_skeleton(&polygon(n, 0.0), Vec::new());
             assert_eq!(summary(&Mesh::from_triangles(n, &sheet.triangles).unwrap()).euler, 1);
             assert_eq!(summary(&Mesh::from_triangles(n, &zigzag(n)).unwrap()).euler, 1);
             for m in 3..9 {

@@ -38,9 +38,11 @@ pub enum Edit {
         /// Whether it closes.
         closed: bool,
     },
-    /// Skins a closed curve (thesis section 7.3.2, `sheet`).
+    /// Skins a closed curve, or a loop of curves that meet at control points (thesis section 7.3.2, `sheet`).
     Sheet {
-        /// The boundary.
+        /// The closed curve, or one of the loop. Of loops along an open curve the shortest is taken, rather one that is a hole; and
+        /// so it is along a closed one that has a surface on both sides somewhere and bounds a hole with others. Curves of
+        /// which the loop takes only a part are divided.
         boundary: CurveId,
     },
     /// Skins the space between two closed curves, a cylinder, or between two open ones or stretches, a strip (thesis section

@@ -72,12 +72,14 @@ pub enum Request {
     },
     /// Asks how far a displacement would reach. Changes nothing.
     Reach(Displacing),
-    /// Asks for the loop that a fill would take through a place of a curve. Changes nothing.
+    /// Asks for the loop that a fill would take through a place of a curve, or a sheet along it. Changes nothing.
     Loop {
         /// The curve.
         curve: CurveId,
         /// The place, roughly.
         at: DVec3,
+        /// Whether it is a sheet that would be made.
+        sheet: bool,
     },
     /// Asks how well surfaces meet along the curves that they share. Changes nothing.
     Seams,
@@ -269,14 +271,14 @@ pub struct MeetingLine {
     pub closed: bool,
 }
 
-/// The loop that a fill would take.
+/// The loop that a fill or a sheet would take.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FoundLoop {
     /// The curve that was pointed at.
     pub curve: CurveId,
     /// The place on it.
     pub at: DVec3,
-    /// Places along each side, in model units; none if there is no loop.
+    /// Places along each side, in model units; none if there is no loop, or if a sheet would take the curve by itself.
     pub sides: Vec<Vec<DVec3>>,
     /// Why there is none.
     pub why: Option<String>,

@@ -1,4 +1,4 @@
-//! The loop that a fill would take through the place of a curve that a tool points at, as the modeler says. One question at a
+//! The loop that a fill or a sheet would take through the place of a curve that a tool points at, as the modeler says. One question at a
 //! time: the newest place is asked about when the answer to the last one has come, which is shown meanwhile.
 
 use ductile_spec::{CurveId, FoundLoop, Request};
@@ -8,21 +8,22 @@ use glam::{DVec3, Vec3};
 #[derive(Clone, Debug, Default)]
 pub struct Looping {
     is_asked: bool,
-    last: Option<(CurveId, DVec3)>,
+    last: Option<(CurveId, DVec3, bool)>,
     known: Option<CurveId>,
     sides: Vec<Vec<Vec3>>,
     why: Option<String>,
 }
 
 impl Looping {
-    /// What to ask now that a tool points at a place of a curve.
-    pub fn want(&mut self, curve: CurveId, at: DVec3) -> Option<Request> {
-        if self.is_asked || self.last == Some((curve, at)) {
+    /// What to ask now that a tool points at a place of a curve; a sheet's loop is the same wherever that is.
+    pub fn want(&mut self, curve: CurveId, at: DVec3, sheet: bool) -> Option<Request> {
+        let asked = (curve, if sheet { DVec3::ZERO } else { at }, sheet);
+        if self.is_asked || self.last == Some(asked) {
             return None;
         }
         self.is_asked = true;
-        self.last = Some((curve, at));
-        Some(Request::Loop { curve, at })
+        self.last = Some(asked);
+        Some(Request::Loop { curve, at, sheet })
     }
 
     /// An answer came; none if there is no telling.
@@ -87,17 +88,20 @@ mod tests {
     #[test]
     fn one_question_at_a_time_and_what_is_known_belongs_to_its_curve() {
         let (mut looping, one) = (Looping::default(), CurveId(1));
-        assert!(looping.want(one, DVec3::X).is_some());
-        assert_eq!(looping.want(one, DVec3::Y), None, "the last is not answered");
+        assert!(looping.want(one, DVec3::X, false).is_some());
+        assert_eq!(looping.want(one, DVec3::Y, false), None, "the last is not answered");
         let sides = vec![vec![DVec3::ZERO, DVec3::X], vec![DVec3::X, DVec3::Y], vec![DVec3::Y, DVec3::ZERO]];
         looping.came(Some(FoundLoop { curve: one, at: DVec3::X, sides, why: None }));
-        assert_eq!(looping.want(one, DVec3::X), None, "that is known");
+        assert_eq!(looping.want(one, DVec3::X, false), None, "that is known");
         assert_eq!((looping.sides(one).len(), looping.sides(CurveId(2)).len()), (3, 0));
         let spokes = looping.spokes(one);
         assert!(spokes.iter().all(|spoke| spoke[1].distance(Vec3::new(1.0, 1.0, 0.0) / 3.0) < 1e-6));
         assert_eq!((looping.fan(one).len(), looping.fan(one)[0][2]), (3, spokes[0][1]));
+        assert!(looping.want(one, DVec3::X, true).is_some(), "a sheet may take another loop");
+        looping.came(None);
+        assert_eq!(looping.want(one, DVec3::Y, true), None, "wherever it is pointed at");
         looping.moved();
-        assert!(looping.want(one, DVec3::X).is_some(), "the shape is another");
+        assert!(looping.want(one, DVec3::X, false).is_some(), "the shape is another");
         let why = Some("no loop".to_owned());
         looping.came(Some(FoundLoop { curve: one, at: DVec3::X, sides: Vec::new(), why }));
         assert_eq!((looping.sides(one).len(), looping.why(one)), (0, Some("no loop")));

@@ -273,7 +273,13 @@ pub fn label(request: &Request) -> &'static str {
         Request::Export(_) => "Export",
         Request::Meet { .. } => "Meet",
         Request::Reach { .. } => "Reach",
-        Request::Loop { .. } => "Fill",
+        Request::Loop { sheet, .. } => {
+            if *sheet {
+                "Sheet"
+            } else {
+                "Fill"
+            }
+        }
         Request::Seams => "Seams",
         Request::Describe => "Describe",
     }

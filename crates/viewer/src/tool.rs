@@ -208,7 +208,7 @@ impl Toolbox {
             ToolKind::Point => "Click where a control point should be.",
             ToolKind::Curve | ToolKind::Draw => self.path_hint(),
             ToolKind::Displace => "Drag a surface, or a curve in it. Wheel: how far around.",
-            ToolKind::Sheet => "Click a closed curve to skin it.",
+            ToolKind::Sheet => "Click a closed curve, or one of a loop, to skin it.",
             ToolKind::Ribbon => "Click a rim, a curve or a point. Drag green handles.",
             ToolKind::Fill => self.fill_hint(),
             ToolKind::Burnout => "Click a region to burn it out. Its curves stay.",
@@ -232,9 +232,9 @@ impl Toolbox {
             ToolKind::Shape | ToolKind::Displace => vec![Act::Select(Selection::of(aim.hit))],
             ToolKind::Point => place_point(aim),
             ToolKind::Curve | ToolKind::Draw => self.place_corner(aim, around),
-            ToolKind::Sheet => match closed_curve(aim.hit, around.structure) {
-                Ok(boundary) => vec![Act::Edit(Edit::Sheet { boundary })],
-                Err(why) => vec![Act::Say(why)],
+            ToolKind::Sheet => match aim.hit {
+                Some(Hit::Curve { id, .. }) => vec![Act::Edit(Edit::Sheet { boundary: *id })],
+                _ => vec![Act::Say("There is no curve here. Click the curve to skin.".to_owned())],
             },
             ToolKind::Ribbon => ribbon::click(aim, around),
             ToolKind::Fill => self.click_fill(aim, around.document),
@@ -351,16 +351,6 @@ fn place_point(aim: Aim<'_>) -> Vec<Act> {
 
 fn say(text: &str) -> Vec<Act> {
     vec![Act::Say(text.to_owned())]
-}
-
-fn closed_curve(hit: Option<&Hit>, structure: &Structure) -> Result<CurveId, String> {
-    let Some(Hit::Curve { id, .. }) = hit else {
-        return Err("There is no curve here. Click a closed curve.".to_owned());
-    };
-    match span(structure, *id) {
-        Some(span) if span.closed => Ok(*id),
-        _ => Err("This curve is open; only a closed curve can be skinned.".to_owned()),
-    }
 }
 
 /// The entry of a control point.

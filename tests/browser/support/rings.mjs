@@ -30,6 +30,23 @@ export const ringedDisc = {
   },
 };
 
+/** A disc with a hole between two arcs that meet at both ends: surface 1, its rim curve 1, the arcs 2 and 3. */
+export const arcedHole = {
+  ...ringedDisc,
+  name: "Hole between arcs",
+  points: { ...circle(1, 1), ...circle(5, 0.5) },
+  curves: { 1: through(1), 2: { through: [5, 6, 7], closed: false }, 3: { through: [7, 8, 5], closed: false } },
+  surfaces: {
+    1: {
+      skeleton: {
+        vertices: [1, 2, 3, 4, 5, 6, 7, 8],
+        triangles: ringedDisc.surfaces[1].skeleton.triangles.slice(0, 8),
+        curves: [{ curve: 1, along: [0, 1, 2, 3] }, { curve: 2, along: [4, 5, 6] }, { curve: 3, along: [6, 7, 4] }],
+      },
+    },
+  },
+};
+
 /** Two free circles over one another, curves 1 and 2, the upper one half as wide. */
 export const twoRings = {
   ductile: 1,

@@ -14,6 +14,14 @@ pub enum HoleError {
         "{0} lies on no loop that could be filled: curves must meet at control points, three sides or more"
     )]
     NoLoop(CurveId),
+    /// A sheet needs a closed curve, or a loop of curves.
+    #[error(
+        "{0} is open, and no curves lead from its one end to the other: only a closed curve can be skinned, or a loop of curves that meet at control points"
+    )]
+    NoRing(CurveId),
+    /// Insert a control point into one of the curves.
+    #[error("the loop along {0} has two control points; a skin needs three: insert one into a curve")]
+    FewPoints(CurveId),
     /// Pick corners along one loop.
     #[error("no loop of curves along {0} passes through all of these corners")]
     NoLoopThrough(CurveId),

@@ -191,9 +191,7 @@ impl ToolKind {
             (Self::Displace, Hit::Curve { id, .. }) => {
                 curve(*id).is_some_and(|curve| curve.role == CurveRole::Inner)
             }
-            (Self::Sheet | Self::Match, Hit::Curve { id, .. }) => {
-                curve(*id).is_some_and(|curve| curve.closed)
-            }
+            (Self::Match, Hit::Curve { id, .. }) => curve(*id).is_some_and(|curve| curve.closed),
             (_, Hit::Point { .. }) => self.wants_points(),
             (_, Hit::Curve { .. }) => self.wants_curves(),
             (_, Hit::Surface { .. }) => self.wants_surfaces(),

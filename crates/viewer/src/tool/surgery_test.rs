@@ -327,7 +327,8 @@ fn what_is_marked_is_what_a_click_would_take() {
     let takes = |kind: ToolKind, hit: Option<Hit>| kind.takes(&hit.unwrap(), &structure);
     let point = |id| Some(Hit::Point { id: PointId(id), at: Vec3::ZERO });
     assert!(takes(ToolKind::Crease, curve(2)) && !takes(ToolKind::Crease, curve(3)));
-    assert!(takes(ToolKind::Sheet, curve(3)) && !takes(ToolKind::Sheet, curve(5)));
+    assert!(takes(ToolKind::Sheet, curve(5)) && !takes(ToolKind::Sheet, on(1, 0.0)));
+    assert!(takes(ToolKind::Match, curve(3)) && !takes(ToolKind::Match, curve(5)));
     assert!(takes(ToolKind::Draw, point(2)) && !takes(ToolKind::Draw, point(1)));
     assert!(takes(ToolKind::Burnout, on(1, 0.0)) && !takes(ToolKind::Burnout, curve(2)));
 }

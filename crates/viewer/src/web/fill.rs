@@ -48,15 +48,16 @@ pub(crate) fn listen() {
 }
 
 impl Page {
-    /// Asks for the loop that a click would fill.
+    /// Asks for the loop that a click would fill or skin.
     pub(crate) fn ask_loop(&mut self) {
-        if self.tools.kind() == ToolKind::Fill {
+        let sheet = self.tools.kind() == ToolKind::Sheet;
+        if sheet || self.tools.kind() == ToolKind::Fill {
             // The hint says why there is no loop only while the pointer is on the curve.
             self.refresh();
         }
         let Some((curve, at)) = self.looped() else { return };
         if self.scene.header.settled
-            && let Some(question) = self.looping.want(curve, at.as_dvec3())
+            && let Some(question) = self.looping.want(curve, at.as_dvec3(), sheet)
         {
             self.schedule.push(question);
         }
@@ -66,7 +67,8 @@ impl Page {
     fn looped(&self) -> Option<(CurveId, glam::Vec3)> {
         match self.hand.hover {
             Some(Hit::Curve { id, at })
-                if self.tools.kind() == ToolKind::Fill && self.tools.picked().is_empty() =>
+                if self.tools.kind() == ToolKind::Sheet
+                    || self.tools.kind() == ToolKind::Fill && self.tools.picked().is_empty() =>
             {
                 Some((id, at))
             }

@@ -1,7 +1,7 @@
 //! What tools show of a surface that they would skin, crease, split or trim, before the click.
 
 use super::page::Page;
-use crate::tool::{Place, ToolKind, least_skin, would_smooth};
+use crate::tool::{Place, ToolKind, least_skin, span, would_smooth};
 use crate::{Highlight, Hit, SharpOrSoft, Skin, Tinted, outline, part_at, region_around, side_of};
 use ductile_spec::CurveId;
 use glam::Vec3;
@@ -10,11 +10,21 @@ use glam::Vec3;
 const DRIFT: f32 = 16.0;
 
 impl Page {
-    /// The skin in the curve under the pointer.
+    /// The skin in the curve under the pointer, or in the loop that it closes with others.
     pub(crate) fn mark_sheet(&self, mark: &mut Highlight) {
         if let Some(Hit::Curve { id, .. }) = mark.hover {
-            let line: Vec<Vec3> = self.scene.samples(id).collect();
-            mark.skins.push(Skin { facets: least_skin(&line), is_refused: false });
+            let sides = self.looping.sides(id);
+            let is_closed = span(&self.scene.structure, id).is_some_and(|span| span.closed);
+            let line: Vec<Vec3> = match sides {
+                [] if is_closed => self.scene.samples(id).collect(),
+                // Each side ends where the next begins.
+                _ => sides.iter().flat_map(|side| &side[..side.len().saturating_sub(1)]).copied().collect(),
+            };
+            mark.sketch.extend_from_slice(sides);
+            let facets = least_skin(&line);
+            if !facets.is_empty() {
+                mark.skins.push(Skin { facets, is_refused: false });
+            }
         }
     }
 

@@ -3,6 +3,7 @@
 
 mod corners;
 mod loops;
+mod skin;
 
 use crate::error::{HoleError, ModelError};
 use crate::model::Model;
@@ -14,6 +15,7 @@ use ductile_spec::{
 };
 use glam::DVec3;
 use loops::{Curves, Neighbours, reversed};
+pub(crate) use skin::{sheet_in, sheet_loop};
 use std::collections::BTreeSet;
 
 /// A closed curve by itself has a corner where it turns by more than this at a sample, in radians: 20°.
@@ -106,11 +108,17 @@ pub(super) fn fill_network(
     Ok(())
 }
 
-/// What a fill through a place of a curve would take.
-pub(crate) fn found_loop(model: &Model, curve: CurveId, at: DVec3) -> FoundLoop {
+/// What a fill through a place of a curve would take, or a sheet along the curve; for a sheet no sides where it takes the curve
+/// by itself.
+pub(crate) fn found_loop(model: &Model, curve: CurveId, at: DVec3, sheet: bool) -> FoundLoop {
     let places = |side: &FillSide| patch::fill::places(model, side).unwrap_or_default();
     let none = FoundLoop { curve, at, sides: Vec::new(), why: None };
-    match nearest_loop(model, &Neighbours::of(model), curve, Some(at)) {
+    let found = if sheet {
+        sheet_loop(model, curve)
+    } else {
+        nearest_loop(model, &Neighbours::of(model), curve, Some(at))
+    };
+    match found {
         Ok(sides) => FoundLoop { sides: sides.iter().map(places).collect(), ..none },
         Err(why) => FoundLoop { why: Some(why.to_string()), ..none },
     }
