@@ -2,7 +2,7 @@
 //! triangles alone, by corners that hang together, so that the modeler can be held to it. (Euler characteristic, boundaries
 //! and sides determine a connected surface; thesis section 4.1.)
 
-use ductile_mesh::{EdgeId, Mesh, summary};
+use ductile_mesh::{EdgeId, FaceId, Mesh, VertexId, summary};
 use ductile_modeler::Model;
 use ductile_spec::SurfaceId;
 
@@ -27,29 +27,61 @@ pub fn kinds(model: &Model) -> Vec<(SurfaceId, Kind)> {
 /// (by face slot).
 #[must_use]
 pub fn pieces(mesh: &Mesh, is_cut: impl Fn(EdgeId) -> bool, stays: impl Fn(usize) -> bool) -> Vec<Kind> {
+    changed(mesh, is_cut, stays, &[])
+}
+
+/// An edge by its ends, in an order.
+pub type Ends = [VertexId; 2];
+
+/// The kinds of the pieces that there are when boundary edges of a mesh are laid on others, end on end.
+///
+/// # Panics
+/// When one of them is no boundary edge.
+#[must_use]
+pub fn sewn(mesh: &Mesh, seam: &[[Ends; 2]]) -> Vec<Kind> {
+    changed(mesh, |_| false, |_| true, seam)
+}
+
+fn changed(
+    mesh: &Mesh,
+    is_cut: impl Fn(EdgeId) -> bool,
+    stays: impl Fn(usize) -> bool,
+    seam: &[[Ends; 2]],
+) -> Vec<Kind> {
     let slots = mesh.face_slots();
     let (mut corners, mut faces, mut senses) =
         (Classes::new(3 * slots), Classes::new(slots), Classes::new(2 * slots));
-    let corner = |f: ductile_mesh::FaceId, v| {
+    let corner = |f: FaceId, v| {
         let place =
             mesh.face_vertices(f).iter().position(|w| *w == v).expect("an edge's ends are its face's");
         3 * f.index() + place
     };
+    let mut meet = |[(f, [a, b]), (g, [c, d])]: [(FaceId, Ends); 2]| {
+        corners.join(corner(f, a), corner(g, c));
+        corners.join(corner(f, b), corner(g, d));
+        faces.join(f.index(), g.index());
+        // Neighbours agree when they run along their edge in opposite senses.
+        let forward = |face, [a, b]: Ends| (corner(face, b) + 3 - corner(face, a)) % 3 == 1;
+        let other = usize::from(forward(f, [a, b]) == forward(g, [c, d]));
+        senses.join(2 * f.index(), 2 * g.index() + other);
+        senses.join(2 * f.index() + 1, 2 * g.index() + 1 - other);
+    };
+    let mut is_sewn = vec![false; mesh.edge_slots()];
+    for pair in seam {
+        meet(pair.map(|[a, b]| {
+            let edge = mesh.edge_between(a, b).filter(|e| mesh.is_boundary_edge(*e)).expect("a rim");
+            is_sewn[edge.index()] = true;
+            (mesh.edge_faces(edge).0, [a, b])
+        }));
+    }
     // Sides of boundary edges, each by the corners at its ends.
     let mut sides = Vec::new();
-    for e in mesh.edges() {
+    for e in mesh.edges().filter(|e| !is_sewn[e.index()]) {
         let [a, b] = mesh.edge_vertices(e);
         let (f, g) = mesh.edge_faces(e);
         let there = [Some(f), g].map(|face| face.filter(|f| stays(f.index())));
         if let ([Some(f), Some(g)], false) = (there, is_cut(e)) {
-            corners.join(corner(f, a), corner(g, a));
-            corners.join(corner(f, b), corner(g, b));
-            faces.join(f.index(), g.index());
-            // Neighbours agree when they run along their edge in opposite senses.
-            let forward = |face| (corner(face, b) + 3 - corner(face, a)) % 3 == 1;
-            let other = usize::from(forward(f) == forward(g));
-            senses.join(2 * f.index(), 2 * g.index() + other);
-            senses.join(2 * f.index() + 1, 2 * g.index() + 1 - other);
+            meet([(f, [a, b]), (g, [a, b])]);
         } else {
             sides.extend(there.into_iter().flatten().map(|f| (f.index(), corner(f, a), corner(f, b))));
         }

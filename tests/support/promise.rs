@@ -1,14 +1,15 @@
 //! What acts promise of the kinds of surfaces: reckoned from the shapes before the act, without doing it.
 
-use crate::kinds::{Kind, kinds, pieces};
-use ductile_mesh::{EdgeId, regions};
+use crate::kinds::{Kind, kinds, pieces, sewn};
+use ductile_mesh::{EdgeId, VertexId, regions};
 use ductile_modeler::{Model, SurfaceShape};
-use ductile_spec::{Border, CurveId, Edit, On, SurfaceId};
+use ductile_spec::{Border, CurveId, Edit, Meeting, On, SurfaceId};
 use glam::DVec3;
 
-/// The kinds that there may be after an act if it is done, each list in order; `None` if nothing is promised.
+/// The kinds that there may be after an act if it is done, each list in order; `None` if nothing is promised. Of a trim there
+/// is to be told along what lines the surfaces meet.
 #[must_use]
-pub fn promise(model: &Model, edit: &Edit) -> Option<Vec<Vec<Kind>>> {
+pub fn promise(model: &Model, edit: &Edit, met: Option<&Meeting>) -> Option<Vec<Vec<Kind>>> {
     // Places on a displaced surface are carried back to the one below, which is not done again here.
     let is_shadowed =
         |surface: &ductile_spec::Surface| surface.regions.iter().any(|region| region.shadow.is_some());
@@ -58,11 +59,16 @@ pub fn promise(model: &Model, edit: &Edit) -> Option<Vec<Vec<Kind>>> {
             Some(vec![instead(&ends, &[tube(ends, kind)?])])
         }
         Edit::Smooth { curve } => {
-            let (gone, made) = joined(model, *curve, &kind)?;
-            Some(made.into_iter().map(|made| instead(&gone, &[made])).collect())
+            let (gone, made) = joined(model, *curve)?;
+            Some(vec![instead(&gone, &made)])
         }
-        // What it leaves depends on where the surfaces meet.
-        Edit::Trim { .. } => None,
+        Edit::Trim { first, second, smooth, .. } => {
+            let ends = [first.surface, second.surface];
+            let lines = &met?.lines;
+            let closed = lines.iter().filter(|line| line.closed).count();
+            let all = trimmed([kind(ends[0])?, kind(ends[1])?], (closed, lines.len()), *smooth);
+            Some(all.iter().map(|made| instead(&ends, made)).collect())
+        }
         Edit::DeleteSurface { surface } | Edit::Bake { surface } => Some(vec![instead(&[*surface], &[])]),
         _ => Some(vec![instead(&[], &[])]),
     }
@@ -118,40 +124,71 @@ fn cut(model: &Model, border: Border) -> Option<(SurfaceId, Vec<Kind>)> {
     }
 }
 
-/// The surfaces at a crease, and what they may become: along an open curve it depends on how its ends lie how many rims there are,
-/// and whether a surface that meets itself gets one side depends on its sense.
-fn joined(
-    model: &Model,
-    curve: CurveId,
-    kind: &dyn Fn(SurfaceId) -> Option<Kind>,
-) -> Option<(Vec<SurfaceId>, Vec<Kind>)> {
+/// The surfaces at a crease, and what becomes of them when its two rims are laid on one another.
+fn joined(model: &Model, curve: CurveId) -> Option<(Vec<SurfaceId>, Vec<Kind>)> {
     let closed = model.curves.get(&curve)?.closed;
     let mut rims = Vec::new();
     for (id, shape) in &model.surfaces {
         for embedded in shape.embeddings.iter().filter(|e| e.curve == curve) {
             let edge = shape.mesh.edge_between(embedded.vertices[0], embedded.vertices[1])?;
             if shape.mesh.is_boundary_edge(edge) {
-                rims.push((*id, &embedded.vertices));
+                rims.push((*id, embedded.vertices.clone()));
             }
         }
     }
-    let [(one, first), (other, second)] = rims[..] else { return None };
-    let (a, b) = (kind(one)?, kind(other)?);
-    let shared = if one == other { first.iter().filter(|v| second.contains(v)).count() } else { 0 };
-    let shared = i64::try_from(shared).ok()?;
-    // Of what was twice there is one less: as many vertices as edges round a closed curve.
-    let less = shared - i64::from(!closed);
-    let (euler, rims, is_two_sided) =
-        if one == other { (a.0, a.1, a.2) } else { (a.0 + b.0, a.1 + b.1, a.2 && b.2) };
-    let mut made = Vec::new();
-    let is_plain = closed && shared == 0;
-    for change in if is_plain { vec![2] } else { vec![0, 1, 2] } {
-        // An open seam leaves one rim more than there was at most.
-        let Some(left) = (rims + usize::from(!is_plain)).checked_sub(change) else { continue };
-        made.push((euler + less, left, is_two_sided));
-        if one == other && is_two_sided {
-            made.push((euler + less, left, false));
+    let [(one, first), (other, second)] = &mut rims[..] else { return None };
+    let mut mesh = model.surfaces[one].mesh.clone();
+    if one != other {
+        let names = mesh.append(&model.surfaces[other].mesh).vertices;
+        for v in second.iter_mut() {
+            *v = names[v.index()]?;
         }
     }
-    Some((vec![one, other], made))
+    let count = first.len();
+    let ends = |line: &[VertexId], k: usize| [line[k], line[(k + 1) % count]];
+    let last = if closed { count } else { count - 1 };
+    let seam: Vec<_> = (0..last).map(|k| [ends(first, k), ends(second, k)]).collect();
+    Some((vec![*one, *other], sewn(&mesh, &seam)))
+}
+
+/// What two surfaces may become that are trimmed along so many lines, of which so many close: a part of each, or the whole of
+/// one that is not divided, and where it is smooth one surface of both parts.
+fn trimmed(kinds: [Kind; 2], (closed, all): (usize, usize), is_smooth: bool) -> Vec<Vec<Kind>> {
+    let [one, other] = kinds.map(|kind| parts(kind, all));
+    let pairs = one.iter().flat_map(|a| other.iter().map(move |b| [*a, *b]));
+    if !is_smooth {
+        let stands = parts(kinds[0], all).into_iter().map(|part| [part, kinds[1]]);
+        let under = parts(kinds[1], all).into_iter().map(|part| [kinds[0], part]);
+        return pairs.chain(stands).chain(under).map(|pair| pair.to_vec()).collect();
+    }
+    let mut made = Vec::new();
+    for [a, b] in pairs {
+        for seams in 1..=closed {
+            let Some(rims) = (a.1 + b.1).checked_sub(2 * seams).filter(|_| seams <= a.1.min(b.1)) else {
+                continue;
+            };
+            // Along one seam sides can be matched, along several they may clash.
+            made.push(vec![(a.0 + b.0, rims, a.2 && b.2)]);
+            if seams > 1 {
+                made.push(vec![(a.0 + b.0, rims, false)]);
+            }
+        }
+    }
+    made
+}
+
+/// What parts of a surface may be that so many lines bound: no part has more handles or crosscaps than the whole.
+fn parts((euler, rims, is_two_sided): Kind, lines: usize) -> Vec<Kind> {
+    let count = |n: usize| i64::try_from(n).expect("surfaces have few rims");
+    let most = 2 - euler - count(rims);
+    let mut all = Vec::new();
+    for own in 1..=rims + lines {
+        for crosscaps in 0..=most {
+            let kind = |is_two_sided| (2 - crosscaps - count(own), own, is_two_sided);
+            // Two crosscaps may be a handle.
+            all.extend((crosscaps % 2 == 0).then(|| kind(true)));
+            all.extend((!is_two_sided && crosscaps > 0).then(|| kind(false)));
+        }
+    }
+    all
 }

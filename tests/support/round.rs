@@ -161,7 +161,14 @@ impl Round {
     fn act(&mut self, edit: &Edit) -> Option<String> {
         let before = self.bench.modeler.model().clone();
         let text = self.bench.document.clone();
-        let promised = promise(&before, edit);
+        let met = match edit {
+            Edit::Trim { first, second, .. } => {
+                let (first, second) = (first.surface, second.surface);
+                self.bench.send(Request::Meet { first, second }).meeting
+            }
+            _ => None,
+        };
+        let promised = promise(&before, edit, met.as_ref());
         let reply = self.bench.send(Request::Edit(edit.clone()));
         if let Some(refusal) = reply.refused {
             assert!(refusal.reason.len() > 10, "{refusal:?} says nothing");

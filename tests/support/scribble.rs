@@ -173,6 +173,10 @@ fn wild_edit(dice: &mut Dice, model: &Model, surface: SurfaceId) -> Edit {
             displacement: Displacement { range: number(dice), ..Displacement::new(at, wild) },
         },
         13 => Edit::Normal { surface, point, normal: Some(wild) },
+        _ if dice.coin() => {
+            let second = SurfaceId(if dice.coin() { 2 } else { 1 });
+            Edit::MergeClosest { first: surface, second, radius: number(dice), keep: dice.coin() }
+        }
         _ => Edit::Objective { of: ObjectiveOf::Region { surface, at: wild }, objective: None },
     }
 }

@@ -130,6 +130,34 @@ pub fn moebius() -> Document {
     document
 }
 
+/// A Klein bottle on four figures of eight, each turned by an eighth of a circle against the one before; after half a turn the
+/// last one lies on the first with its ends exchanged.
+#[must_use]
+pub fn klein_bottle() -> Document {
+    let mut document = Document::default();
+    let (mut triangles, mut curves) = (Vec::new(), Vec::new());
+    for turn in 0..4_u32 {
+        let (sin, cos) = libm::sincos(f64::from(turn) * std::f64::consts::FRAC_PI_2);
+        let (lift, lean) = libm::sincos(f64::from(turn) * std::f64::consts::FRAC_PI_4);
+        let mut through = Vec::new();
+        for (k, [out, up]) in (0_u32..).zip([[0.9, 0.4], [0.9, -0.4], [-0.9, 0.4], [-0.9, -0.4]]) {
+            let id = PointId(4 * turn + k + 1);
+            let radius = 2.5 + out * lean - up * lift;
+            document.points.insert(id, dvec3(radius * cos, radius * sin, out * lift + up * lean));
+            through.push(id);
+            // The first two points and the last two are exchanged where it closes.
+            let at = |turn: u32, k: u32| if turn == 4 { 3 - k % 4 } else { 4 * turn + k % 4 };
+            let (a, b, c, d) = (at(turn, k), at(turn + 1, k), at(turn + 1, k + 1), at(turn, k + 1));
+            triangles.extend([[a, b, d], [b, c, d]]);
+        }
+        document.curves.insert(CurveId(turn + 1), Curve::new(through, true));
+        curves.push(Embedding { curve: CurveId(turn + 1), along: (4 * turn..4 * turn + 4).collect() });
+    }
+    let vertices = (1..=16).map(|id| SkeletonVertex::Control(PointId(id))).collect();
+    document.surfaces.insert(SurfaceId(1), Surface::new(Skeleton { vertices, triangles, curves }));
+    document
+}
+
 /// A tube on three circles, each through four points: two of radius 1, so far above and below the third, its waist.
 #[must_use]
 pub fn waisted(waist: f64, half: f64) -> Document {
