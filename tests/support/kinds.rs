@@ -66,14 +66,8 @@ fn changed(
         senses.join(2 * f.index(), 2 * g.index() + other);
         senses.join(2 * f.index() + 1, 2 * g.index() + 1 - other);
     };
-    let mut is_sewn = vec![false; mesh.edge_slots()];
-    for pair in seam {
-        meet(pair.map(|[a, b]| {
-            let edge = mesh.edge_between(a, b).filter(|e| mesh.is_boundary_edge(*e)).expect("a rim");
-            is_sewn[edge.index()] = true;
-            (mesh.edge_faces(edge).0, [a, b])
-        }));
-    }
+    let (is_sewn, pairs) = laid(mesh, seam);
+    pairs.into_iter().for_each(&mut meet);
     // Sides of boundary edges, each by the corners at its ends.
     let mut sides = Vec::new();
     for e in mesh.edges().filter(|e| !is_sewn[e.index()]) {
@@ -112,6 +106,18 @@ fn changed(
     }
     found.sort_unstable();
     found
+}
+
+/// By edge slot, whether an edge is of a seam; and the pairs of the seam with the faces at them.
+fn laid(mesh: &Mesh, seam: &[[Ends; 2]]) -> (Vec<bool>, Vec<[(FaceId, Ends); 2]>) {
+    let mut is_sewn = vec![false; mesh.edge_slots()];
+    let mut side = |[a, b]: Ends| {
+        let edge = mesh.edge_between(a, b).filter(|e| mesh.is_boundary_edge(*e)).expect("a rim");
+        is_sewn[edge.index()] = true;
+        (mesh.edge_faces(edge).0, [a, b])
+    };
+    let pairs = seam.iter().map(|pair| pair.map(&mut side)).collect();
+    (is_sewn, pairs)
 }
 
 /// Disjoint classes of numbers; the least of each is its name.

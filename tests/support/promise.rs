@@ -51,11 +51,9 @@ pub fn promise(model: &Model, edit: &Edit, met: Option<&Meeting>) -> Option<Vec<
             let made = (one.0 + other.0, (one.1 + other.1).checked_sub(2)?, one.2 && other.2);
             Some(vec![instead(&[from.surface, to.surface], &[made])])
         }
-        Edit::MergeClosest { first, second, .. } => {
-            Some(vec![instead(&[*first, *second], &[tube([*first, *second], kind)?])])
-        }
-        Edit::Merge { from, to, .. } => {
-            let ends = [from.surface, to.surface];
+        Edit::MergeClosest { first: a, second: b, .. }
+        | Edit::Merge { from: On { surface: a, .. }, to: On { surface: b, .. }, .. } => {
+            let ends = [*a, *b];
             Some(vec![instead(&ends, &[tube(ends, kind)?])])
         }
         Edit::Smooth { curve } => {

@@ -27,7 +27,7 @@ pub enum HoleError {
     NoLoopThrough(CurveId),
     /// The loops have too few corners.
     #[error(
-        "the loop along {0} has {1} corners; a patch needs at least 3. Choose corners, or skin a closed curve with Sheet"
+        "the loop along {0} has {1} corners; a patch needs at least 3. Choose corners, or skin it with Sheet"
     )]
     FewCorners(CurveId, usize),
     /// All loops of a network are filled, or it has none.
