@@ -50,8 +50,9 @@ pub(super) fn is_much_cheaper(hidden: (&Model, &Relaxer), shown: (&Model, &Relax
         let old = shown.0.surfaces.get(id).and_then(|old| shown.1.surface(*id, old));
         let Some((new, old)) = hidden.1.surface(*id, shape).zip(old) else { return false };
         let (new, old) = (new.energy() + FLAT, old.energy() + FLAT);
-        // Written so that what is no number is no cheaper.
-        if !(new <= old * (1.0 + ALIKE)) {
+        // What is no number is no cheaper.
+        let is_no_dearer = new <= old * (1.0 + ALIKE);
+        if !is_no_dearer {
             return false;
         }
         least = least.min(new / old);
