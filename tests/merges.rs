@@ -124,6 +124,26 @@ fn a_handle_on_a_flat_disc_stands_up_from_it() {
     }
 }
 
+/// Sheets that lie on one another in a plane are at a saddle of the energy, too: the discs stayed there, at 161,341. A sphere costs 8 π.
+#[test]
+fn discs_in_one_plane_that_are_glued_become_a_ball() {
+    for reversed in [false, true] {
+        let mut bench = discs(&[DVec3::ZERO, dvec3(3.0, 0.0, 0.0)], 0.1);
+        let (from, to) = (on(1, DVec3::X), on(2, dvec3(2.0, 0.0, 0.0)));
+        bench.edit(Edit::Glue { from, to, skirt: false, reversed });
+        let live = bench.rest(600);
+        let opened = opened(&bench);
+        println!("reversed {reversed}: {live}, {opened} opened");
+        assert!((live / (8.0 * std::f64::consts::PI) - 1.0).abs() < 0.01, "{live}");
+        assert!((live / opened - 1.0).abs() < 1e-6, "{live} and {opened}");
+        let document = bench.document();
+        bench.accept(Request::Undo);
+        assert_eq!(bench.document().surfaces.len(), 2);
+        bench.accept(Request::Redo);
+        assert_eq!(bench.document(), document);
+    }
+}
+
 #[test]
 fn surfaces_are_merged_where_they_come_closest() {
     let way = dvec3(0.6, 0.0, 0.8);

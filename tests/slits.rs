@@ -33,6 +33,8 @@ fn a_flat_disc_with_a_slit_rests_flat() {
         [(0.0, -0.2), (0.1, -0.4), (0.1, -0.8)],
         [(-0.3, 0.1), (0.0, 0.2), (0.1, 0.75)],
         [(0.1, 0.0), (0.385_956, 0.119_390), (0.7, 0.3)],
+        // Twice, and far from the samples that the curve inside has.
+        [(-0.7, 0.03), (0.0, 0.1), (0.7, 0.03)],
     ];
     for line in lines {
         let (bench, energy) = cut(ring(0.4, 4), line.map(|(x, y)| dvec3(x, y, 0.0)));

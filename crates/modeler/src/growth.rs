@@ -6,6 +6,8 @@
 //! again (nested iteration). Which way of beginning leads into the right valley cannot be told beforehand; several are
 //! tried, and the one is kept whose mesh resolves its shape best and, among equals, whose energy is least.
 
+mod inflating;
+
 use crate::bound::BoundSurface;
 use crate::density;
 use crate::error::ModelError;
@@ -173,6 +175,7 @@ impl Ground<'_> {
         let (mut resolved, mut made) = (Vec::new(), 0);
         for start in STARTS {
             let mut shape = skin(start)?;
+            inflating::inflate(&mut shape);
             let score = match self.finish(&mut shape) {
                 Ok(score) => score,
                 Err(reason) => {

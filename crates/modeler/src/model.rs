@@ -44,8 +44,11 @@ pub(crate) enum Making {
     Own,
     /// Moved controls, or steps with other budgets, brought them where they are.
     Worked,
-    /// Acts made them what they are; whether they come to rest without folds is not known yet.
+    /// Acts made them what they are; whether they come to rest without folds, and whether what the document opens to is not much
+    /// cheaper, is not known yet.
     Acted,
+    /// Controls of what acts had made were moved; whether they come to rest without folds is not known yet.
+    Moved,
     /// Acts made them what they are, or what the document opens to is another shape or a worse one.
     Kept,
 }

@@ -13,10 +13,11 @@ mod likeness;
 mod slide;
 
 use crate::error::ModelError;
-use crate::model::Model;
+use crate::model::{Making, Model};
 use crate::patch;
 use crate::relax::Relaxer;
 
+pub(crate) use likeness::FLAT;
 pub(crate) use slide::Slide;
 
 /// Conjugate-gradient iterations of a step out of sight: always the same, whatever the clock of the page gives to steps in
@@ -77,13 +78,19 @@ impl Hidden {
 
     /// The way from the shape shown to this one, if it is the same shape and no worse.
     pub(crate) fn slide_from(&self, shown: &Model, relaxer: &Relaxer) -> Option<Slide> {
-        if !self.relaxer.is_at_rest()
-            || !likeness::is_no_worse((&self.model, &self.relaxer), (shown, relaxer))
-        {
+        let (hidden, old) = ((&self.model, &self.relaxer), (shown, relaxer));
+        let unfolds = relaxer.is_folded() && !self.relaxer.is_folded();
+        if !self.relaxer.is_at_rest() {
+            return None;
+        }
+        if shown.making == Making::Acted && !relaxer.is_folded() {
+            let is_taken = !self.relaxer.is_folded() && likeness::is_much_cheaper(hidden, old);
+            return is_taken.then(|| Slide::new(shown, &self.model));
+        }
+        if !likeness::is_no_worse(hidden, old, unfolds) {
             return None;
         }
         let slide = Slide::new(shown, &self.model);
-        let unfolds = relaxer.is_folded() && !self.relaxer.is_folded();
         (unfolds || likeness::is_near(&slide, shown)).then_some(slide)
     }
 

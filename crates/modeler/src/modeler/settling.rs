@@ -4,7 +4,7 @@
 use super::Modeler;
 use crate::density;
 use crate::model::{Making, Model};
-use crate::settle::{Hidden, MOST_NODES, Settling, Slide};
+use crate::settle::{FLAT, Hidden, MOST_NODES, Settling, Slide};
 use crate::skeleton::carry_free;
 use ductile_spec::{Document, Request};
 
@@ -31,7 +31,7 @@ impl Modeler {
     /// Whether the shapes rest, and perhaps not as their document's own.
     fn wants_settling(&self) -> bool {
         let has_shapes = !(self.model.surfaces.is_empty() && self.model.curves.is_empty());
-        let is_worked = matches!(self.model.making, Making::Worked | Making::Acted);
+        let is_worked = matches!(self.model.making, Making::Worked | Making::Acted | Making::Moved);
         has_shapes
             && is_worked
             && self.model.node_count() <= MOST_NODES
@@ -103,7 +103,12 @@ impl Modeler {
         if self.model.making == Making::Opened && self.model.rests {
             self.model.making = if self.relaxer.is_stinted() { Making::Worked } else { Making::Own };
         }
-        if self.model.making == Making::Acted && self.model.rests && !self.relaxer.is_folded() {
+        let is_good = match self.model.making {
+            Making::Acted => self.relaxer.energy() <= FLAT,
+            Making::Moved => true,
+            _ => false,
+        };
+        if is_good && self.model.rests && !self.relaxer.is_folded() {
             self.model.making = Making::Kept;
         }
     }
@@ -116,8 +121,9 @@ impl Modeler {
     }
 
     fn keep(&mut self) -> Settling {
+        let is_expected = self.model.making == Making::Acted && !self.relaxer.is_folded();
         self.model.making = Making::Kept;
-        self.kept = self.kept.saturating_add(1);
+        self.kept = self.kept.saturating_add(u32::from(!is_expected));
         Settling::Idle
     }
 }
@@ -131,7 +137,10 @@ pub(super) fn worked(before: &Model, now: &Model) -> Making {
     carry_free(&before.document, &mut moved);
     let has_only_moved =
         moved == *now.document && before.document.points.keys().eq(now.document.points.keys());
-    let was_made = matches!(before.making, Making::Kept | Making::Acted);
-    let can_settle = !was_made && has_only_moved && density::graded(now).is_empty();
-    if can_settle { Making::Worked } else { Making::Acted }
+    if !has_only_moved {
+        return Making::Acted;
+    }
+    let was_made = matches!(before.making, Making::Kept | Making::Acted | Making::Moved);
+    let can_settle = !was_made && density::graded(now).is_empty();
+    if can_settle { Making::Worked } else { Making::Moved }
 }

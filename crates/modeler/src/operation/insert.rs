@@ -6,7 +6,7 @@ use crate::model::Model;
 use crate::operation::slide::slide;
 use crate::operation::{kept_position, refresh_skeleton, rim};
 use crate::shadow;
-use crate::shape::{CurveShape, edit};
+use crate::shape::{CurveShape, SurfaceShape, edit};
 use ductile_mesh::SourceTag;
 use ductile_spec::{CurveId, PointId};
 use glam::DVec3;
@@ -59,8 +59,50 @@ fn make_room(model: &mut Model, id: CurveId, at: DVec3) -> Result<(usize, DVec3)
     let at = kept_position(model, at)?;
     let shape = model.curves.get(&id).ok_or(ModelError::NoCurve(id))?;
     let (edge, t) = shape.nearest(at).ok_or(ModelError::NoCurve(id))?;
-    let place = kept_position(model, shape.place(edge, with_room(shape, edge, t)))?;
-    Ok((free_sample(model, id, edge, t)?, place))
+    let roomy = with_room(shape, edge, t);
+    let place = kept_position(model, shape.place(edge, roomy))?;
+    let sample = free_sample(model, id, edge, t)?;
+    if (ROOM..=1.0 - ROOM).contains(&roomy) && !can_slide_all(model, id, sample, place) {
+        // A vertex that stayed far behind would lead astray whatever is drawn through the point.
+        if let Ok(new) = shadow::insert_sample(model, id, edge, place) {
+            let place = put_on_edges(model, id, new, at).unwrap_or(place);
+            return Ok((new, kept_position(model, place)?));
+        }
+    }
+    Ok((sample, place))
+}
+
+/// Whether the vertices at a sample can go to a place, in every surface that follows the curve.
+fn can_slide_all(model: &Model, id: CurveId, sample: usize, to: DVec3) -> bool {
+    model.document.surfaces_on(id).all(|surface| {
+        let Some(shape) = model.surfaces.get(&surface) else { return true };
+        let mut shape = SurfaceShape::clone(shape);
+        let vertices = shape.embeddings.iter().filter(|e| e.curve == id).map(|e| e.vertices[sample]);
+        vertices.collect::<Vec<_>>().into_iter().all(|vertex| slide(&mut shape, vertex, to))
+    })
+}
+
+/// Puts the vertices at a new sample where the edges that it divides are nearest to a place, away from their ends: there no triangle
+/// turns over. Gives the first such place. A curve that was just drawn is not yet what its surface has of it.
+fn put_on_edges(model: &mut Model, id: CurveId, sample: usize, at: DVec3) -> Option<DVec3> {
+    let mut first = None;
+    for surface in model.document.surfaces_on(id).collect::<Vec<_>>() {
+        let Some(shape) = model.surfaces.get_mut(&surface).map(edit::<SurfaceShape>) else { continue };
+        for k in 0..shape.embeddings.len() {
+            if shape.embeddings[k].curve != id {
+                continue;
+            }
+            let vertices = &shape.embeddings[k].vertices;
+            let count = vertices.len();
+            let (v, ends) = (vertices[sample], [vertices[sample - 1], vertices[(sample + 1) % count]]);
+            let [from, to] = ends.map(|end| shape.positions[end.index()]);
+            let t = (at - from).dot(to - from) / (to - from).length_squared();
+            let place = from.lerp(to, if t.is_finite() { t.clamp(ROOM, 1.0 - ROOM) } else { 0.5 });
+            shape.positions[v.index()] = place;
+            first = first.or(Some(place));
+        }
+    }
+    first
 }
 
 /// Makes a sample of a curve a control, and the vertices of all surfaces that follow it there.

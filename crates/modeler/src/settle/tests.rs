@@ -196,6 +196,44 @@ fn worse_triangles_are_not_taken() {
     assert!(hidden.slide_from(&model, &relaxer).is_none());
 }
 
+/// A shape with waves in it that cost so many times what it does, as if it rested so.
+fn waved(model: &Model, relaxer: &Relaxer, times: f64) -> (Model, Relaxer) {
+    let mut height = 1e-3;
+    loop {
+        let (mut model, mut waved) = (model.clone(), relaxer.clone());
+        let shape = edit(model.surfaces.get_mut(&SURFACE).unwrap());
+        for v in shape.mesh.vertices() {
+            let at = &mut shape.positions[v.index()];
+            at.z += height * libm::sin(5.0 * at.x);
+        }
+        waved.rest(&model);
+        if waved.energy() > times * relaxer.energy() {
+            return (model, waved);
+        }
+        height *= 1.1;
+    }
+}
+
+#[test]
+fn what_an_act_left_makes_way_for_what_costs_less_than_half() {
+    let (mut modeler, _) = led(DVec3::new(0.3, 0.1, 0.1));
+    rest(&mut modeler);
+    let (model, relaxer) = (modeler.model().clone(), modeler.relaxer().clone());
+    let hidden = Hidden { model: model.clone(), relaxer: relaxer.clone() };
+    for (times, making, is_taken) in [
+        (2.1, Making::Acted, true),
+        (1.5, Making::Acted, false),
+        // Nobody knows by which way what was moved came where it is.
+        (2.1, Making::Moved, false),
+        (2.1, Making::Worked, false),
+    ] {
+        let (mut shown, waved) = waved(&model, &relaxer, times);
+        shown.making = making;
+        assert!(!waved.is_folded());
+        assert_eq!(hidden.slide_from(&shown, &waved).is_some(), is_taken, "{times} times, {making:?}");
+    }
+}
+
 #[test]
 fn what_acts_made_is_kept_and_undo_of_them_settles_again() {
     let (mut modeler, point) = led(DVec3::new(0.3, 0.1, 0.1));
