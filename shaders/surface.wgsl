@@ -7,7 +7,7 @@
 struct SurfaceStyle {
     // Display colour of a tool's tint; a: how strong.
     tint: vec4f,
-    // x: 1 if the surface has two sides, which then differ.
+    // x: 1 if the surface has two sides, which then differ; y: how strong the tint is where `influence` is 1.
     sides: vec4f,
 }
 
@@ -15,6 +15,8 @@ struct SurfaceStyle {
 @group(1) @binding(0) var<storage, read> pairs: array<vec2f>;
 @group(1) @binding(1) var<storage, read> indices: array<u32>;
 @group(1) @binding(2) var<storage, read> styles: array<SurfaceStyle>;
+// By how much each vertex would follow a hand; of a surface without `y` in its sides nothing is said.
+@group(1) @binding(4) var<storage, read> influence: array<f32>;
 
 struct Facet {
     @builtin(position) clip: vec4f,
@@ -25,6 +27,7 @@ struct Facet {
     @location(3) @interpolate(flat) style: u32,
     // Mean curvature, where that is asked for.
     @location(4) mean: f32,
+    @location(5) influence: f32,
 }
 
 fn position(vertex: u32) -> vec3f {
@@ -52,6 +55,10 @@ fn surface_vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) su
     facet.normal = select(normal, -normal, dot(normal, flat_normal) < 0.0);
     facet.weights = vec2f(vec2u(corner) == vec2u(0u, 1u));
     facet.style = surface;
+    facet.influence = 0.0;
+    if styles[surface].sides.y > 0.0 {
+        facet.influence = styles[surface].sides.y * influence[own];
+    }
     facet.mean = 0.0;
     if question() == MEAN {
         // Of the two sides the one of the stored normal, whichever triangle is drawn; a surface with one side has none.
@@ -108,7 +115,7 @@ fn surface_fragment(in: Facet, @builtin(front_facing) is_front: bool) -> @locati
         case MEAN: { colour = ramp((in.mean - frame.look.y) * frame.look.z) * form; }
         default: {}
     }
-    colour = mix(colour, style.tint.rgb, style.tint.a);
+    colour = mix(colour, style.tint.rgb, max(style.tint.a, in.influence));
 
     let weights = vec3f(in.weights, 1.0 - in.weights.x - in.weights.y);
     let edge = weights / max(fwidth(weights), vec3f(1e-6));

@@ -32,7 +32,7 @@ const KNOWN: [Known; Example::BUILT.len()] = [
     known(Example::PartyHat, (-2, 4, true), 72.019, 30.0),
     known(Example::CappedCylinder, (2, 0, true), 25.058, 30.0),
     known(Example::GluedCylinders, (0, 2, true), 24.816, 30.0),
-    known(Example::Handle, (-2, 0, true), 190.342, 25.0),
+    known(Example::Handle, (-2, 0, true), 190.136, 25.0),
     known(Example::KleinMug, (0, 0, false), 145.280, 25.0),
     known(Example::ThreeHandles, (-4, 0, true), 212.795, 24.5),
     known(Example::MoebiusStrip, (0, 1, false), 4.386, 30.0),

@@ -3,7 +3,7 @@
 //!
 //! What was worth keeping lies in `fixtures/acts`, one file of bytes each: cases that went wrong once, and a few that reach far.
 //! `INPUTS=5000 SEED=2 cargo test --release -p acceptance --test fuzz_acts -- --nocapture` scrawls so many more, begins elsewhere,
-//! and prints what fails, as short as it can be. A fuzzer that looks for new ways itself would call the same function.
+//! and prints what fails, as short as it can be. A fuzzer that looks for new ways itself calls the same function (`fuzz/`).
 
 #![allow(clippy::unwrap_used, reason = "a failing test should stop where it fails")]
 #![allow(clippy::print_stdout, reason = "the figures are worth seeing with --nocapture")]

@@ -63,6 +63,24 @@ fn a_handle_is_led_right_round_its_torus() {
     assert!(least.to_degrees() > 25.0 && centile.to_degrees() > 36.0, "a good triangulation");
 }
 
+/// Thesis figure 7.2: the script makes the handle on the right of the torus, and leads it to where the page looks from at first.
+#[test]
+fn the_handle_of_the_example_stands_in_front() {
+    let mut bench = Bench::with(Example::Handle);
+    bench.rest(600);
+    let shape = &bench.modeler.model().surfaces[&SurfaceId(1)];
+    let places = shape.mesh.vertices().map(|v| shape.positions[v.index()]);
+    // Farther out than the torus, which ends at 1.5.
+    let out: Vec<DVec3> = places.filter(|at| at.truncate().length() > 1.7).collect();
+    assert!(out.len() > 100, "{} vertices stand out", out.len());
+    let azimuths: Vec<f64> = out.iter().map(|at| libm::atan2(at.y, at.x).to_degrees()).collect();
+    let least = azimuths.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = azimuths.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    println!("the handle stands between {least:.1} and {most:.1} degrees");
+    assert!((0.5 * (least + most) + 60.0).abs() < 2.0, "{least} to {most}: in front");
+    assert!(most - least < 80.0, "{least} to {most}: as wide as it was made");
+}
+
 /// The least angle of the surface, and the one that a hundredth of all are below.
 fn angles(bench: &Bench) -> (f64, f64) {
     let shape = &bench.modeler.model().surfaces[&SurfaceId(1)];

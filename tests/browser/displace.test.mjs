@@ -65,6 +65,53 @@ test("a surface is pulled from inside, the foot goes where the hand does, undo a
   });
 });
 
+test("what a displacement would move is tinted softly: pointed at, held, chosen; `PICTURES=folder` keeps the pictures", async () => {
+  const photo = async (page, name) => {
+    if (process.env.PICTURES) await page.screenshot({ path: `${process.env.PICTURES}/${name}.png` });
+  };
+  for (const colorScheme of ["light", "dark"]) {
+    await withPage({ viewport: wide, context: { colorScheme } }, async (page) => {
+      const before = await atRest(page);
+      const [from, to] = onBareSurface(before);
+      await page.keyboard.press("e");
+      await pointAway(page);
+      await untilInspect(page, (state) => state.tool === "displace" && state.marked.influence === 0);
+      await drawn(page);
+      const bare = await picture(page);
+      await page.mouse.move(...from);
+      const wider = await untilInspect(page, ({ marked }) => marked.influence > 20 && marked.lines > 4);
+      await drawn(page);
+      const tinted = difference(bare, await picture(page));
+      assert.ok(tinted > 0.02, `${colorScheme}: ${tinted} of the picture is tinted`);
+      await photo(page, `influence-${colorScheme}`);
+      await page.locator("#reach-range").fill("-0.5");
+      await page.locator("#reach-range").press("Enter");
+      await page.mouse.move(from[0] + 1, from[1]);
+      await untilInspect(page, ({ marked }) => marked.lines > 4 && marked.lines < wider.marked.lines);
+      await drag(page, [from[0] + 1, from[1]], to, {
+        async beforeRelease() {
+          await untilInspect(page, (now) => now.feet.length === 1 && now.marked.influence > 20);
+          await drawn(page);
+          await photo(page, `influence-held-${colorScheme}`);
+        },
+      });
+      await pointAway(page);
+      const after = await atRest(page, (state) => state.document !== before.document && state.marked.influence > 20);
+      await drawn(page);
+      await photo(page, `influence-chosen-${colorScheme}`);
+      // Over the foot it is the range of the foot that counts, not that of the tool.
+      await page.locator("#reach-range").fill("0.6");
+      await page.locator("#reach-range").press("Enter");
+      await page.mouse.move(...foot(after, 1).screen);
+      await page.waitForTimeout(300);
+      const over = await untilInspect(page, ({ marked }) => marked.influence > 0);
+      assert.equal(over.marked.influence, after.marked.influence);
+      await page.keyboard.press("Escape");
+      await untilInspect(page, (state) => state.tool === "shape" && state.marked.influence === 0);
+    });
+  }
+});
+
 test("a foot is taken again, changed by numbers, erased; all are dropped", async () => {
   await withPage({ viewport: wide }, async (page) => {
     const before = await atRest(page);

@@ -19,7 +19,7 @@ test("a disc takes on the relief of a dome, and strength, turn and undo are what
     const [disc, dome] = [middle(before), point(before, 9).screen];
     await drawn(page);
     const flat = await picture(page);
-    await page.keyboard.press("o");
+    await page.keyboard.press("l");
     await untilInspect(page, ({ tool }) => tool === "shadow");
     await page.mouse.move(...disc);
     await untilInspect(page, ({ marked }) => marked.tinted === 1);
@@ -64,7 +64,7 @@ test("a disc takes on the relief of a dome, and strength, turn and undo are what
 test("a stamp with a hole leaves the region as it is and says why; without the hole the shadow comes back by itself", async () => {
   await withDocument(discAndDome, async (page, before) => {
     const [disc, dome] = [middle(before), point(before, 9).screen];
-    await page.keyboard.press("o");
+    await page.keyboard.press("l");
     await untilInspect(page, ({ tool }) => tool === "shadow");
     await page.mouse.click(...disc);
     await untilInspect(page, ({ underWay }) => underWay);

@@ -93,3 +93,35 @@ test("two tabs keep their own documents", async () => {
     await session.close();
   }
 });
+
+test("steps that a safeguard rescued are counted in the status line, once there are any", async () => {
+  // Hardly any shape needs one: the solver's reports are told to speak of some.
+  const init = () => {
+    const told = (value, rescues) => {
+      if (value === null || typeof value !== "object" || ArrayBuffer.isView(value)) return;
+      if (value.figures) value.figures.rescues = rescues;
+      else Object.values(value).forEach((part) => told(part, rescues));
+    };
+    window.rescues = 0;
+    window.Worker = class extends Worker {
+      constructor(...given) {
+        super(...given);
+        this.addEventListener("message", ({ data }) => told(data, window.rescues));
+      }
+    };
+  };
+  await withPage({ viewport: wide, init }, async (page) => {
+    const before = await atRest(page);
+    const shown = page.locator("#figure-rescues");
+    assert.equal(before.figures.rescues, 0);
+    assert.equal(await shown.isVisible(), false, "nothing is said of none");
+    for (const [rescues, text, to] of [[1, "1 rescue", [330, 200]], [12, "12 rescues", [360, 230]]]) {
+      await page.evaluate((rescues) => (window.rescues = rescues), rescues);
+      await drag(page, point(await inspect(page), 7).screen, to);
+      await atRest(page, ({ figures }) => figures.rescues === rescues);
+      assert.equal(await shown.textContent(), text);
+      assert.ok(await shown.isVisible());
+      if (process.env.PICTURES) await page.screenshot({ path: `${process.env.PICTURES}/rescues.png` });
+    }
+  });
+});

@@ -2,6 +2,7 @@
 //! after every request.
 
 pub mod dice;
+pub mod files;
 pub mod kinds;
 pub mod promise;
 pub mod reference;

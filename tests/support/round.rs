@@ -60,7 +60,7 @@ impl Round {
                 let there = if is_undo { self.now.checked_sub(1) } else { Some(self.now + 1) };
                 let there = there.filter(|there| *there < self.texts.len());
                 let reply = self.bench.send(request.clone());
-                assert_eq!(reply.refused.is_none(), there.is_some(), "{request:?}");
+                assert_eq!(reply.refused.is_none(), there.is_some(), "{request:?}: {:?}", reply.refused);
                 self.now = there.unwrap_or(self.now);
                 assert_eq!(self.bench.document, self.texts[self.now], "{request:?} to the letter");
                 follows(&self.bench);

@@ -163,9 +163,8 @@ impl Modeler {
                 Ok(Outcome { meeting: Some(Meeting { first, second, lines }), ..Outcome::default() })
             }
             Request::Reach(trial) => {
-                let segments = self.displacer.reach((&self.model, &self.relaxer), &trial)?;
-                let surface = trial.surface;
-                Ok(Outcome { reach: Some(Reach { surface, segments }), ..Outcome::default() })
+                let reach = self.displacer.reach((&self.model, &self.relaxer), &trial)?;
+                Ok(Outcome { reach: Some(reach), ..Outcome::default() })
             }
             Request::Loop { curve, at, sheet } => {
                 let found = operation::found_loop(&self.model, curve, at, sheet);

@@ -249,6 +249,10 @@ pub struct Reach {
     pub surface: SurfaceId,
     /// Segments of the line on what is shown where it would move the surface by half of what it moves its foot.
     pub segments: Vec<[DVec3; 2]>,
+    /// By how much it would move each vertex of the surface, in 255ths of what it moves its foot. Feet that are vertices of their
+    /// own come last and are left out.
+    #[serde(with = "crate::bytes")]
+    pub influence: Vec<u8>,
 }
 
 /// Where two surfaces run through one another now.

@@ -11,6 +11,7 @@ mod curvature;
 mod drape;
 mod gpu;
 pub mod input;
+pub mod keys;
 mod layer;
 pub mod limit;
 mod look;

@@ -5,6 +5,7 @@ use crate::pick::Hit;
 use crate::strip::Strip;
 use ductile_spec::{CurveId, PointId, SurfaceId};
 use glam::Vec3;
+use std::rc::Rc;
 
 /// How surfaces are coloured.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -149,6 +150,8 @@ pub struct Highlight {
     pub arms: Vec<(Vec3, Vec3, bool)>,
     /// What a tool is about to touch: tinted with the accent.
     pub tinted: Vec<Tinted>,
+    /// By how much each vertex of a surface would follow what a tool pulls, in 255ths: tinted as softly.
+    pub influence: Option<(SurfaceId, Rc<[u8]>)>,
     /// Rims that a tool is about to join: closed polylines in the colour of boundaries.
     pub rims: Vec<Vec<Vec3>>,
     /// Tangent strips: how surfaces leave curves.

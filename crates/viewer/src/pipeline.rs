@@ -30,7 +30,7 @@ pub(crate) struct Workshop<'a> {
 pub(crate) struct Layouts {
     /// Group 0: the frame.
     pub(crate) frame: BindGroupLayout,
-    /// Group 1: numbers, elements, styles; and for surfaces also the triangles around each vertex.
+    /// Group 1: numbers, elements, styles; and for surfaces also the triangles around each vertex, and a tint for each.
     pub(crate) pulled: [BindGroupLayout; 2],
 }
 
@@ -50,12 +50,12 @@ impl Layouts {
             frame: group("frame", &[entry(0, BufferBindingType::Uniform)]),
             pulled: [
                 group("pulled", &[storage(0), storage(1), storage(2)]),
-                group("pulled with rings", &[storage(0), storage(1), storage(2), storage(3)]),
+                group("pulled with rings", &[storage(0), storage(1), storage(2), storage(3), storage(4)]),
             ],
         }
     }
 
-    /// Binds numbers, elements and styles, and rings where there are four.
+    /// Binds numbers, elements and styles, and rings and tints where there are five.
     pub(crate) fn pull<const N: usize>(
         &self,
         device: &Device,
@@ -77,8 +77,8 @@ pub(crate) enum Pulls {
     Nothing,
     /// Numbers, elements and styles.
     ThreeBuffers,
-    /// These, and the triangles around each vertex.
-    FourBuffers,
+    /// These, the triangles around each vertex, and how softly each vertex is tinted.
+    FiveBuffers,
 }
 
 /// How a pass meets what is drawn already.
@@ -114,7 +114,7 @@ impl Workshop<'_> {
     }
 
     fn layout(&self, recipe: &Recipe<'_>) -> PipelineLayout {
-        let pulled = &self.layouts.pulled[usize::from(recipe.pulls == Pulls::FourBuffers)];
+        let pulled = &self.layouts.pulled[usize::from(recipe.pulls == Pulls::FiveBuffers)];
         let both = [Some(&self.layouts.frame), Some(pulled)];
         self.device.create_pipeline_layout(&PipelineLayoutDescriptor {
             label: Some(recipe.label),

@@ -35,6 +35,8 @@ mod journal;
 #[cfg(target_arch = "wasm32")]
 mod keyboard;
 #[cfg(target_arch = "wasm32")]
+mod keys;
+#[cfg(target_arch = "wasm32")]
 mod lean;
 #[cfg(target_arch = "wasm32")]
 mod legend;

@@ -1,4 +1,5 @@
-//! How far a displacement would reach that is not there yet: the line along which its blend would be 1/2, on what is shown.
+//! How far a displacement would reach that is not there yet: its blend at the vertices, and the line along which that would be
+//! 1/2, on what is shown.
 
 use super::Displacer;
 use super::base::Base;
@@ -9,7 +10,7 @@ use crate::error::ModelError;
 use crate::model::Model;
 use crate::relax::Relaxer;
 use ductile_patch::{DisplacementError, Displacements, Domain};
-use ductile_spec::{Blending, Displaced, Displacing, SurfaceId};
+use ductile_spec::{Blending, Displaced, Displacing, Reach, SurfaceId};
 use glam::DVec3;
 
 /// Where a blend counts as reached.
@@ -25,7 +26,7 @@ pub(super) struct Probe {
 }
 
 impl Displacer {
-    /// Segments of the line to which a displacement of a place or a curve of what is shown would reach.
+    /// How far a displacement of a place or a curve of what is shown would reach.
     ///
     /// # Errors
     /// Why it cannot be displaced.
@@ -33,7 +34,7 @@ impl Displacer {
         &mut self,
         (model, relaxer): (&Model, &Relaxer),
         trial: &Displacing,
-    ) -> Result<Vec<[DVec3; 2]>, ModelError> {
+    ) -> Result<Reach, ModelError> {
         let id = trial.surface;
         let base = Base::of(model, relaxer, id).ok_or(ModelError::NoSurface(id))?;
         let asked = model.document.displacements.get(&id).cloned().unwrap_or_default();
@@ -46,10 +47,10 @@ impl Displacer {
         let (_, item) = items.into_iter().next().ok_or_else(nowhere)?;
         if let Some(overlay) = self.overlays.get_mut(&id).filter(|overlay| overlay.is_on(&base)) {
             let blend = overlay.trial(item).map_err(refuse)?;
-            return Ok(line(&overlay.positions()[..blend.len()], base.triangles, &blend));
+            return Ok(reach(id, &overlay.positions()[..blend.len()], base.triangles, &blend));
         }
         let blend = self.probe(id, &asked, &base).and_then(|solver| solver.trial(item)).map_err(refuse)?;
-        Ok(line(base.positions, base.triangles, &blend))
+        Ok(reach(id, base.positions, base.triangles, &blend))
     }
 
     fn probe(
@@ -76,6 +77,20 @@ impl Displacer {
             }
         };
         Ok(&mut self.probe.insert(known).solver)
+    }
+}
+
+fn reach(surface: SurfaceId, positions: &[DVec3], triangles: &[[u32; 3]], blend: &[f64]) -> Reach {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "clamped to what a byte holds"
+    )]
+    let byte = |blend: &f64| (blend.clamp(0.0, 1.0) * 255.0).round() as u8;
+    Reach {
+        surface,
+        segments: line(positions, triangles, blend),
+        influence: blend.iter().map(byte).collect(),
     }
 }
 

@@ -470,6 +470,15 @@ fn a_drag_takes_a_whole_curve_along_as_one_act() {
     let mean =
         |places: &mut dyn Iterator<Item = DVec3>| places.fold(0.0, |far, at| far + distance(&nodes, at));
     let count = reach.segments.len() as f64;
+    let influence = |at: &DVec3| {
+        let nearest = |a: &usize, b: &usize| plain[*a].distance(*at).total_cmp(&plain[*b].distance(*at));
+        reach.influence[(0..plain.len()).min_by(nearest).unwrap()]
+    };
+    assert_eq!(reach.influence.len(), plain.len(), "each vertex has its own");
+    assert!(nodes.iter().all(|node| influence(node) > 250), "the curve goes along as a whole");
+    let far = |at: &DVec3| distance(&nodes, *at) > 0.05 && (30..225).contains(&influence(at));
+    assert!(plain.iter().any(far), "between them it fades");
+    assert_eq!(*reach.influence.iter().min().unwrap(), 0, "the rim stays");
     assert!(mean(&mut reach.segments.iter().map(|ends| ends[0])) / count > 0.05, "it runs around the curve");
     let target = GrabTarget::Displace(begun);
     let pulled = bench.accept(Request::Grab(target)).pulled.unwrap();

@@ -122,7 +122,7 @@ impl ToolKind {
             "f" => Some(Self::Fill),
             "q" => Some(Self::Cage),
             "e" => Some(Self::Displace),
-            "o" => Some(Self::Shadow),
+            "l" => Some(Self::Shadow),
             _ => None,
         }
     }

@@ -195,8 +195,16 @@ impl Page {
             },
             "hide" => self.panel.toggle_bare(),
             "scene" => self.panel.toggle_side(),
-            "help" => open_dialog("keys"),
-            "close-dialog" => close_dialogs(),
+            "help" => {
+                self.list_keys();
+                open_dialog("keys");
+            }
+            "key" => self.await_key(subject.unwrap_or_default()),
+            "keys-reset" => self.reset_keys(),
+            "close-dialog" => {
+                self.list_keys();
+                close_dialogs();
+            }
             "dismiss" => self.notices.dismiss(subject.unwrap_or_default()),
             "select" => self.select_listed(subject.unwrap_or_default()),
             "restart" => self.restart_worker(),

@@ -150,15 +150,20 @@ impl Page {
         if self.tools.kind() != ToolKind::Displace {
             return false;
         }
-        let (target, anchor) = match (self.foot_at(at), self.thing_at(at)) {
+        let (target, anchor, trial) = match (self.foot_at(at), self.thing_at(at)) {
             (Some((foot, place)), _) => {
-                (GrabTarget::Foot { surface: foot.surface, number: foot.number }, place)
+                let target = GrabTarget::Foot { surface: foot.surface, number: foot.number };
+                (target, place, self.trial_of(&foot))
             }
             (None, hit) => match hit.and_then(|hit| Some((self.displacing(&hit)?, hit.at()))) {
-                Some((begun, place)) => (GrabTarget::Displace(begun), place),
+                Some((begun, place)) => (GrabTarget::Displace(begun), place, Some(begun)),
                 None => return true,
             },
         };
+        // What it moves stays tinted in the drag.
+        if let Some(question) = trial.and_then(|trial| self.reaching.want_now(trial)) {
+            self.schedule.push(question);
+        }
         self.hold(Drag::of_place(target, anchor, at), at);
         true
     }
@@ -251,6 +256,13 @@ impl Page {
         } else if let Some(trial) = self.trial() {
             mark.sketch.extend_from_slice(self.reaching.lines(trial.surface));
         }
+        let is_held = self.hand.drag.is_some();
+        let pointed = if is_held {
+            self.chosen_foot.map(|(surface, _)| surface)
+        } else {
+            self.trial().map(|t| t.surface)
+        };
+        mark.influence = self.reaching.influence(is_held).filter(|(surface, _)| Some(*surface) == pointed);
     }
 
     pub(super) fn displaced(&self, surface: SurfaceId) -> Option<&Displaced> {

@@ -169,6 +169,8 @@ impl Page {
         put(&out, "strips", number(marks.strips.len()));
         put(&out, "parts", number(marks.parts.len()));
         put(&out, "points", number(marks.selected.len()));
+        let followed = |of: &[u8]| of.iter().filter(|follows| **follows > 0).count();
+        put(&out, "influence", number(marks.influence.map_or(0, |(_, of)| followed(&of))));
         out
     }
 

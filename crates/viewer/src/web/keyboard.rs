@@ -1,8 +1,9 @@
 //! The keyboard.
 
-use super::page::{Page, act};
+use super::page::{self, Page, act};
 use super::{commands, dom, files};
 use crate::Shading;
+use crate::keys::Chord;
 use crate::tool::{Arrow, Axis, Selection, Surroundings, Toggle, ToolKey, ToolKind, nudge_direction};
 use ductile_spec::{Edit, Request};
 use wasm_bindgen::JsCast;
@@ -25,7 +26,7 @@ pub(crate) fn listen() {
         let target = event.target().and_then(|target| target.dyn_into::<Element>().ok());
         let is_typing =
             target.as_ref().is_some_and(|t| t.matches("input, textarea, select").unwrap_or(false));
-        if commands::dialog_is_open() || event.is_composing() {
+        if event.is_composing() {
             return;
         }
         let key = Key {
@@ -36,6 +37,18 @@ pub(crate) fn listen() {
             alt: event.alt_key(),
             on_canvas: target.as_ref().is_none_or(|t| t.id() == "view" || t.tag_name() == "BODY"),
         };
+        if page::look(|page| page.keys.is_waiting()) == Some(true) && commands::dialog_is_open() {
+            if !matches!(key.name.as_str(), "Shift" | "Control" | "Alt" | "AltGraph" | "Meta") {
+                event.prevent_default();
+                let chord = key.chord();
+                act(move |page| page.change_key(&chord));
+            }
+            return;
+        }
+        if commands::dialog_is_open() {
+            return;
+        }
+        let Some(key) = key.meant() else { return };
         // Inside a field the keys belong to the field, but for those that save and open.
         let is_global = key.ctrl && matches!(key.name.to_lowercase().as_str(), "s" | "o");
         // A focused button or menu keeps Space, Enter, Tab and the arrows.
@@ -70,6 +83,27 @@ pub(crate) fn listen() {
     }
 }
 
+impl Key {
+    /// How the list of keys names it.
+    fn chord(&self) -> Chord {
+        let name = digit(&self.code).map_or_else(|| self.name.to_lowercase(), String::from);
+        Chord { ctrl: self.ctrl, shift: self.shift && self.ctrl, alt: self.alt, name }
+    }
+
+    /// The key that stands for what this one means as the designer has it; none if it means nothing.
+    fn meant(self) -> Option<Self> {
+        let chord = self.chord();
+        let meant = page::look(|page| page.keys.meaning(&chord)).unwrap_or_else(|| Some(chord.clone()))?;
+        if meant == chord {
+            return Some(self);
+        }
+        let is_digit = meant.name.len() == 1 && meant.name.as_bytes()[0].is_ascii_digit();
+        let code = if is_digit { format!("Digit{}", meant.name) } else { String::new() };
+        let shift = if meant.ctrl { meant.shift } else { self.shift };
+        Some(Self { name: meant.name, code, shift, ctrl: meant.ctrl, alt: meant.alt, ..self })
+    }
+}
+
 /// Keys that the browser must not act on as well.
 fn is_understood(key: &Key) -> bool {
     let name = key.name.to_lowercase();
@@ -98,7 +132,7 @@ fn has_canvas_focus() -> bool {
 }
 
 fn has_points() -> bool {
-    super::page::look(|page| !page.scene.structure.points.is_empty()).unwrap_or(false)
+    page::look(|page| !page.scene.structure.points.is_empty()).unwrap_or(false)
 }
 
 fn digit(code: &str) -> Option<char> {

@@ -4,6 +4,7 @@ use super::dom;
 use super::gestures::Hand;
 use super::import::Imported;
 use super::journal::Journal;
+use super::keys::KeyList;
 use super::legend::{self, Legend};
 use super::notice::Notices;
 use super::panel::Panel;
@@ -11,7 +12,7 @@ use super::port::Port;
 use super::settings::Settings;
 use super::stage::Stage;
 use super::{
-    cage, canvas, commands, density, displace, fields, files, fill, inspect, keyboard, lean, link,
+    cage, canvas, commands, density, displace, fields, files, fill, inspect, keyboard, keys, lean, link,
     objectives, opening, ribbon, seams, stage,
 };
 use crate::limit::Limit;
@@ -42,6 +43,7 @@ pub(crate) struct Page {
     pub(crate) scene: Scene,
     pub(crate) camera: Camera,
     pub(crate) settings: Settings,
+    pub(crate) keys: KeyList,
     pub(crate) tools: Toolbox,
     pub(crate) selection: Selection,
     /// Which surface was clicked last, and where: the place names a region of it.
@@ -132,6 +134,7 @@ pub(crate) fn start() {
         scene: Scene::default(),
         camera: Camera::default(),
         settings: Settings::load(),
+        keys: KeyList::load(),
         tools: Toolbox::default(),
         selection: Selection::None,
         picked: None,
@@ -196,6 +199,7 @@ fn listen() {
     lean::listen();
     seams::listen();
     legend::listen();
+    keys::listen();
     ribbon::listen();
     files::listen();
     link::listen();

@@ -104,6 +104,11 @@ impl Page {
         dom::text(&dom::element("figure-topology"), &self.topology_text());
         dom::text(&dom::element("figure-nodes"), &format!("{} nodes", figures.nodes));
         dom::text(&dom::element("figure-energy"), &format!("energy {:.4}", whole_zero(figures.energy)));
+        // Most shapes never need any.
+        let rescues = dom::element("figure-rescues");
+        dom::show(&rescues, figures.rescues > 0);
+        let plural = if figures.rescues == 1 { "" } else { "s" };
+        dom::text(&rescues, &format!("{} rescue{plural}", figures.rescues));
         dom::class(&dom::element("state-dot"), "rest", rests);
         let state = if self.port.is_stopped() {
             "stopped"

@@ -1,6 +1,7 @@
 //! How far displacements reach, in the page: the fields of the tool and of the chosen displacement, wheel and keys, and the line that
 //! shows it.
 
+use super::displace::FootMark;
 use super::dom;
 use super::page::Page;
 use crate::Hit;
@@ -132,10 +133,19 @@ impl Page {
         if self.tools.kind() != ToolKind::Displace || self.hand.drag.is_some() {
             return None;
         }
+        if let Some((over, _)) = self.hand.cursor.and_then(|at| self.foot_at(at)) {
+            return self.trial_of(&over);
+        }
         if let Some(hit) = &self.hand.hover {
             return self.displacing(hit);
         }
-        let (foot, item) = self.chosen_item()?;
+        let (foot, _) = self.chosen_item()?;
+        self.trial_of(&foot)
+    }
+
+    /// A displacement that is there, as if it were to be made.
+    pub(super) fn trial_of(&self, foot: &FootMark) -> Option<Displacing> {
+        let item = self.displaced(foot.surface)?.items.get(foot.number.checked_sub(1)?)?;
         let (at, along) = (foot.at.as_dvec3(), item.foot.curve());
         Some(Displacing { surface: foot.surface, at, along, range: item.range, direction: item.direction })
     }

@@ -150,6 +150,6 @@ fn check(command: &str, checked: bool) {
     }
 }
 
-fn storage() -> Option<Storage> {
+pub(crate) fn storage() -> Option<Storage> {
     dom::window().local_storage().ok().flatten()
 }
