@@ -1,7 +1,7 @@
 //! Exact points of a patch at places that a file gives: what `fill` and `cage` have in common.
 
 use crate::input::{self, CliError};
-use crate::verify::json::Json;
+use crate::verify::json::{self, Json};
 use crate::verify::reader::{Flaw, Item};
 use glam::DVec3;
 use serde::Serialize;
@@ -52,7 +52,7 @@ impl<Wanted> Places<Wanted> {
     ) -> Result<Self, CliError> {
         let bad = |reason: String| CliError::Refused { file: file.to_owned(), reason };
         let text = input::read_up_to(file, most_bytes)?;
-        let json: Json = serde_json::from_str(&text).map_err(|reason| bad(reason.to_string()))?;
+        let json: Json = json::read(&text).map_err(&bad)?;
         let all = || -> Result<Vec<_>, Flaw> {
             let root = Item::root(&json);
             let list = if root.is_list() { root } else { root.fields()?.need("samples")? };

@@ -447,7 +447,7 @@ fn bad_samples_and_options_are_refused() {
         ("[{\"u\": 0}]", "one of `xy`, `bary`"),
         ("[7]", "[0]: an object is expected"),
         ("{}", "samples: this field is missing"),
-        ("[[0, 1e999]]", "out of range"),
+        ("[[0, 1e999]]", "places.json: [0][1]: a finite number is expected"),
         ("", "EOF"),
     ] {
         fs::write(&places, text).unwrap();

@@ -3,7 +3,7 @@
 use super::{CliError, MOST_BYTES};
 use crate::input;
 use crate::ribbon_file;
-use crate::verify::json::Json;
+use crate::verify::json::{self, Json};
 use crate::verify::reader::{Fields, Flaw, Item};
 use crate::verify::report::Report;
 use ductile_patch::Ribbon;
@@ -22,11 +22,11 @@ pub(super) struct Request {
 pub(super) fn read(file: &Path) -> Result<Vec<Request>, CliError> {
     let bad = |reason: String| CliError::Refused { file: file.to_owned(), reason };
     let text = input::read_up_to(file, MOST_BYTES)?;
-    let json: Json = match serde_json::from_str(&text) {
+    let json: Json = match json::read(&text) {
         Ok(json) => json,
         Err(reason) => {
             // No JSON: a file of text, or nothing that is known.
-            let of_text = ribbon_holes(&text).ok_or_else(|| bad(reason.to_string()))?;
+            let of_text = ribbon_holes(&text).ok_or_else(|| bad(reason))?;
             let holes = of_text.map_err(|reason| bad(reason.to_string()))?;
             return Ok(holes.into_iter().map(of_hole).collect());
         }

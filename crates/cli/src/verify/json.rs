@@ -15,6 +15,57 @@ pub(crate) enum Json {
     Fields(Vec<(String, Self)>),
 }
 
+/// What stands in place of a number that is not finite, until its place is known: no file has it.
+const NOT_FINITE: &str = "\u{0}not finite";
+
+/// Reads a text. What other programs write for numbers that are not finite (`NaN`, `Infinity`, `1e999`) is no JSON; it is refused with
+/// the place that has it.
+pub(crate) fn read(text: &str) -> Result<Json, String> {
+    serde_json::from_str(text).map_err(|reason| {
+        let relaxed = serde_json::from_str(&without_infinities(text)).ok();
+        let place = relaxed.as_ref().and_then(|json: &Json| json.place_of_not_finite());
+        place.map_or_else(
+            || reason.to_string(),
+            |place| format!("{}: a finite number is expected", place.trim_start_matches('.')),
+        )
+    })
+}
+
+/// The text with [`NOT_FINITE`] for every word that is a number, but no finite one.
+fn without_infinities(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for (at, part) in text.split_inclusive('"').enumerate() {
+        // Every second part is a string, but for escaped quotes: then the result is no JSON, and nothing is told.
+        if at % 2 == 1 {
+            out.push_str(part);
+            continue;
+        }
+        for word in part.split_inclusive(|c: char| !(c.is_ascii_alphanumeric() || "+-.".contains(c))) {
+            let bare = word.trim_end_matches(|c: char| !c.is_ascii_alphanumeric());
+            if bare.parse::<f64>().is_ok_and(|number| !number.is_finite()) {
+                out.push_str("\"\\u0000not finite\"");
+                out.push_str(&word[bare.len()..]);
+            } else {
+                out.push_str(word);
+            }
+        }
+    }
+    out
+}
+
+impl Json {
+    /// Where [`NOT_FINITE`] stands first, as in `ribbons[1].row0[2]`.
+    fn place_of_not_finite(&self) -> Option<String> {
+        let below = |name: String, value: &Self| value.place_of_not_finite().map(|rest| name + &rest);
+        match self {
+            Self::Text(text) => (text == NOT_FINITE).then(String::new),
+            Self::List(list) => list.iter().enumerate().find_map(|(k, value)| below(format!("[{k}]"), value)),
+            Self::Fields(fields) => fields.iter().find_map(|(name, value)| below(format!(".{name}"), value)),
+            Self::Null | Self::Flag(_) | Self::Number(_) => None,
+        }
+    }
+}
+
 impl<'de> Deserialize<'de> for Json {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(Reader)
@@ -79,7 +130,7 @@ impl<'de> Visitor<'de> for Reader {
 
 #[cfg(test)]
 mod tests {
-    use super::Json;
+    use super::{Json, read};
 
     #[test]
     fn what_is_written_is_read() {
@@ -102,5 +153,26 @@ mod tests {
             let said = serde_json::from_str::<Json>(text).unwrap_err().to_string();
             assert!(said.contains(says), "{text}: {said}");
         }
+    }
+    #[test]
+    fn a_number_that_is_not_finite_is_refused_with_the_place_that_has_it() {
+        for (text, says) in [
+            (
+                r#"{"ribbons": [{"row0": [[0, 0, 0], [1, NaN, 0]]}]}"#,
+                "ribbons[0].row0[1][1]: a finite number",
+            ),
+            (r#"{"a": "NaN", "b": {"c": -Infinity}}"#, "b.c: a finite number"),
+            (r#"[1, 1e999]"#, "[1]: a finite number"),
+            (r#"[1, -1e999]"#, "[1]: a finite number"),
+            // Nothing else is made better than it is.
+            (r#"{"a": nonsense}"#, "line 1"),
+            (r#"{"a": "NaN", "a": 1}"#, "field `a` is given twice"),
+            (r#"{"a": NaN"#, "line 1"),
+            (r#"["\"", NaN]"#, "line 1"),
+        ] {
+            let said = read(text).unwrap_err();
+            assert!(said.contains(says), "{text}: {said}");
+        }
+        assert_eq!(read(r#"["NaN", "a\"b", 1e308]"#).map(|json| json != Json::Null), Ok(true));
     }
 }

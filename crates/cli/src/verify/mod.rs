@@ -75,7 +75,7 @@ pub(crate) fn run(options: &Options) -> Result<ExitCode, CliError> {
 fn verify(file: &Path) -> Result<(&'static str, Report), CliError> {
     let bad = |reason: String| CliError::Refused { file: file.to_owned(), reason };
     let text = input::read_up_to(file, MOST_BYTES)?;
-    let json: json::Json = serde_json::from_str(&text).map_err(|reason| bad(reason.to_string()))?;
+    let json: json::Json = json::read(&text).map_err(&bad)?;
     check(&json).map_err(|flaw| bad(flaw.to_string()))
 }
 

@@ -173,7 +173,8 @@ pub fn read_mesh(text: &str) -> Result<(Mesh, Vec<DVec3>), ObjError> {
 
 /// Statements with the line each starts on: comments cut off, lines ending in `\` joined to the next.
 fn statements(text: &str) -> impl Iterator<Item = (usize, String)> + '_ {
-    let mut lines = text.lines().enumerate();
+    // Some editors begin a text with a mark of its byte order.
+    let mut lines = text.trim_start_matches('\u{feff}').lines().enumerate();
     core::iter::from_fn(move || {
         let (number, line) = lines.next()?;
         let mut statement = line.split('#').next().unwrap_or_default().trim_end().to_owned();
@@ -230,7 +231,7 @@ mod tests {
 
     #[test]
     fn polygons_become_fans_and_forms_of_corners_are_read() {
-        let text = "# a square\nmtllib x.mtl\nv 0 0 0 1\nv 1 0 0\nv 1 1 0 # far\nv 0 1 0\nv 9 9 9\nvt 0 0\n\
+        let text = "\u{feff}v 0 0 0 1\n# a square\nmtllib x.mtl\nv 1 0 0\nv 1 1 0 # far\nv 0 1 0\nv 9 9 9\nvt 0 0\n\
                     f 1/1 2/1/1 \\\n 3//1 -2\n";
         let soup = read(text).unwrap();
         assert_eq!(soup.triangles, [[0, 1, 2], [0, 2, 3]]);

@@ -30,7 +30,7 @@ pub(super) const GRAM_CONDITION: f64 = 1e6;
 /// The sum of so many pairwise weights is far from the smallest number.
 pub(super) const MOST_ITEMS: usize = 512;
 
-/// One item for [`pairwise`]: items in different parts of a surface do not see each other.
+/// One item for [`Pairwise`]: items in different parts of a surface do not see each other.
 #[derive(Clone, Debug)]
 pub(super) struct Seen<'a> {
     pub(super) part: u32,
@@ -38,17 +38,29 @@ pub(super) struct Seen<'a> {
     pub(super) rho: Vec<f64>,
 }
 
-/// The normalised weights of all items at all vertices.
-pub(super) fn pairwise(items: &[Seen<'_>], function: &BlendFunction) -> Vec<Vec<f64>> {
-    let mut weights: Vec<Vec<f64>> = items.iter().map(|item| vec![1.0; item.rho.len()]).collect();
-    for j in 0..items.len() {
-        for k in j + 1..items.len() {
-            if items[j].part != items[k].part {
+/// The products `W_j` of all items at all vertices, not yet divided by their sum. One more item at the end costs its own pairs
+/// alone and gives the same bits as all at once.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Pairwise {
+    products: Vec<Vec<f64>>,
+}
+
+impl Pairwise {
+    /// How many items it knows.
+    pub(super) fn len(&self) -> usize {
+        self.products.len()
+    }
+
+    /// Multiplies the last of these items into what is known of those before it.
+    pub(super) fn append(&mut self, items: &[Seen<'_>], function: &BlendFunction) {
+        let Some((new, before)) = items.split_last() else { return };
+        let mut own = vec![1.0; new.rho.len()];
+        for (item, product) in before.iter().zip(&mut self.products) {
+            if item.part != new.part {
                 continue;
             }
-            let (before, after) = weights.split_at_mut(k);
-            for (vertex, (one, other)) in before[j].iter_mut().zip(&mut after[0]).enumerate() {
-                let (rho_j, rho_k) = (items[j].rho[vertex], items[k].rho[vertex]);
+            for (vertex, (one, other)) in product.iter_mut().zip(&mut own).enumerate() {
+                let (rho_j, rho_k) = (item.rho[vertex], new.rho[vertex]);
                 let sum = rho_j + rho_k;
                 // Clamped on a bad mesh, both can be at their foot as far as numbers tell.
                 let share = if sum > 0.0 { function.value(rho_k / sum) } else { 0.5 };
@@ -56,29 +68,29 @@ pub(super) fn pairwise(items: &[Seen<'_>], function: &BlendFunction) -> Vec<Vec<
                 *other *= 1.0 - share;
             }
         }
-    }
-    // On an item itself nothing is left to arithmetic.
-    for (j, item) in items.iter().enumerate() {
-        for &vertex in item.vertices {
-            for (k, weight) in weights.iter_mut().enumerate().filter(|(k, _)| items[*k].part == item.part) {
-                weight[vertex] = f64::from(u8::from(k == j));
+        self.products.push(own);
+        // On an item itself nothing is left to arithmetic.
+        for (j, item) in items.iter().enumerate() {
+            for &vertex in item.vertices {
+                let alike = self.products.iter_mut().enumerate().filter(|(k, _)| items[*k].part == item.part);
+                alike.for_each(|(k, product)| product[vertex] = f64::from(u8::from(k == j)));
             }
         }
     }
-    let mut parts: Vec<u32> = items.iter().map(|item| item.part).collect();
-    parts.sort_unstable();
-    parts.dedup();
-    for part in parts {
-        let mut sum = vec![0.0; items[0].rho.len()];
-        let is_in = |k: &usize| items[*k].part == part;
-        for k in (0..items.len()).filter(is_in) {
-            sum.iter_mut().zip(&weights[k]).for_each(|(sum, weight)| *sum += weight);
+
+    /// What the products in a part of the surface add up to, by which they are divided; `parts` are those of all items.
+    pub(super) fn sum(&self, parts: &[u32], part: u32) -> Vec<f64> {
+        let mut sum = vec![0.0; self.products.first().map_or(0, Vec::len)];
+        for (product, _) in self.products.iter().zip(parts).filter(|(_, own)| **own == part) {
+            sum.iter_mut().zip(product).for_each(|(sum, product)| *sum += product);
         }
-        for k in (0..items.len()).filter(is_in) {
-            weights[k].iter_mut().zip(&sum).for_each(|(weight, sum)| *weight /= sum);
-        }
+        sum
     }
-    weights
+
+    /// The products of an item.
+    pub(super) fn of(&self, item: usize) -> Option<&[f64]> {
+        self.products.get(item).map(Vec::as_slice)
+    }
 }
 
 /// The inverse of `G_jk = B_k(j)`.

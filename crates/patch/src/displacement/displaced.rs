@@ -5,7 +5,7 @@
 //! vertices move by `Σ d_j B_j` with `B = f ∘ R ∘ H`. All of `H` is kept as `ln ρ`, `ρ = 1 - H`: then `R` is one exponential.
 
 use super::blend::{Blend, BlendFunction, Range};
-use super::combine::{self, Combination, MOST_ITEMS, Seen};
+use super::combine::{self, Combination, MOST_ITEMS, Pairwise, Seen};
 use super::domain::Domain;
 use super::error::DisplacementError;
 use super::green::Green;
@@ -13,6 +13,7 @@ use super::item::{self, Item};
 use super::laplacian::{Direction, Laplacian, Stiffness};
 use super::reach::{Profile, Reach};
 use glam::DVec3;
+use std::collections::BTreeMap;
 
 /// What all displacements of a surface have in common.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -60,6 +61,8 @@ pub struct Displacements {
     function: BlendFunction,
     operators: Vec<(Option<Direction>, Green)>,
     reaches: Vec<Reach>,
+    /// What the items owe to one another under `pairwise`; nothing under the others.
+    pairwise: Pairwise,
     /// The inverse for `gram`, until a range changes.
     gram: Option<Vec<Vec<f64>>>,
 }
@@ -71,8 +74,15 @@ impl Displacements {
     /// A parameter of the blend, triangles without area, or triangles too bad to be solved on.
     pub fn new(domain: Domain, settings: Settings) -> Result<Self, DisplacementError> {
         let function = BlendFunction::new(settings.blend)?;
-        let mut new =
-            Self { domain, settings, function, operators: Vec::new(), reaches: Vec::new(), gram: None };
+        let mut new = Self {
+            domain,
+            settings,
+            function,
+            operators: Vec::new(),
+            reaches: Vec::new(),
+            pairwise: Pairwise::default(),
+            gram: None,
+        };
         new.operator(None)?;
         Ok(new)
     }
@@ -88,7 +98,7 @@ impl Displacements {
         let index = self.reaches.len();
         let reach = self.reach(item, index)?;
         self.reaches.push(reach);
-        let outcome = self.combine();
+        let outcome = self.combine(true);
         if outcome.is_err() {
             self.reaches.pop();
         }
@@ -111,7 +121,7 @@ impl Displacements {
     pub fn remove(&mut self, index: usize) -> Result<(), DisplacementError> {
         self.get(index)?;
         let reach = self.reaches.remove(index);
-        let outcome = self.combine();
+        let outcome = self.combine(false);
         if outcome.is_err() {
             self.reaches.insert(index, reach);
         }
@@ -126,7 +136,7 @@ impl Displacements {
         self.get(index)?;
         let reach = self.reach(item, index)?;
         let before = core::mem::replace(&mut self.reaches[index], reach);
-        let outcome = self.combine();
+        let outcome = self.combine(false);
         if outcome.is_err() {
             self.reaches[index] = before;
         }
@@ -153,7 +163,7 @@ impl Displacements {
             reach.profile(settings.profile);
             reach.refresh_blend(&new.function);
         }
-        new.combine()?;
+        new.combine(false)?;
         *self = new;
         Ok(())
     }
@@ -191,7 +201,7 @@ impl Displacements {
         let reach = &mut self.reaches[index];
         reach.item.range = range;
         reach.refresh_blend(&self.function);
-        reach.refresh_share();
+        self.refresh_shares(|other| other == index);
         Ok(())
     }
 
@@ -328,9 +338,13 @@ impl Displacements {
         Ok(reach)
     }
 
-    /// Gives the items what they owe to one another. Refuses before it changes anything.
-    fn combine(&mut self) -> Result<(), DisplacementError> {
+    /// Gives the items what they owe to one another; what is known of the first ones may still hold. Refuses before it changes
+    /// anything.
+    fn combine(&mut self, is_known: bool) -> Result<(), DisplacementError> {
         self.check_apart()?;
+        if !is_known {
+            self.pairwise = Pairwise::default();
+        }
         let reaches = &mut self.reaches;
         if self.settings.combination == Combination::Cardinal {
             let feet: Vec<usize> = reaches.iter().map(|reach| reach.item.vertices[0]).collect();
@@ -341,18 +355,30 @@ impl Displacements {
                 reach.refresh_blend(&self.function);
             }
         }
-        let mut weights = Vec::new();
-        if self.settings.combination == Combination::Pairwise && reaches.len() > 1 {
+        if self.settings.combination == Combination::Pairwise {
             let items: Vec<Seen<'_>> = reaches.iter().map(Reach::seen).collect();
-            weights = combine::pairwise(&items, &self.function);
+            for count in self.pairwise.len()..items.len() {
+                self.pairwise.append(&items[..=count], &self.function);
+            }
         }
-        let mut weights = weights.into_iter();
-        for reach in reaches {
-            reach.weight = weights.next();
-            reach.refresh_share();
-        }
+        self.refresh_shares(|_| true);
         self.gram = None;
         Ok(())
+    }
+
+    /// Makes the shares of some items from their blends and the weights of the combination.
+    fn refresh_shares(&mut self, wanted: impl Fn(usize) -> bool) {
+        let parts: Vec<u32> = self.reaches.iter().map(|reach| reach.part).collect();
+        let mut sums: BTreeMap<u32, Vec<f64>> = BTreeMap::new();
+        for (index, reach) in self.reaches.iter_mut().enumerate().filter(|(index, _)| wanted(*index)) {
+            let Some(products) = self.pairwise.of(index) else {
+                reach.share.clone_from(&reach.blend);
+                continue;
+            };
+            let sum = sums.entry(reach.part).or_insert_with(|| self.pairwise.sum(&parts, reach.part));
+            let weights = products.iter().zip(sum).map(|(product, sum)| product / *sum);
+            reach.share = reach.blend.iter().zip(weights).map(|(blend, weight)| blend * weight).collect();
+        }
     }
 
     /// Whether these items can be combined as the settings ask.

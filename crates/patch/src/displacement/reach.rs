@@ -34,7 +34,6 @@ pub(super) struct Reach {
     pub(super) blend: Vec<f64>,
     /// The weight of the combination times the blend.
     pub(super) share: Vec<f64>,
-    pub(super) weight: Option<Vec<f64>>,
     pub(super) extension: Option<Extension>,
     /// The displacement at each vertex where it varies.
     pub(super) field: Option<Vec<DVec3>>,
@@ -43,8 +42,8 @@ pub(super) struct Reach {
 impl Reach {
     pub(super) fn new(item: Item, operator: usize, part: u32, harmonic: Vec<f64>) -> Self {
         let (logarithm, blend, share) = (Vec::new(), Vec::new(), Vec::new());
-        let (weight, extension, field) = (None, None, None);
-        Self { item, operator, part, harmonic, logarithm, blend, share, weight, extension, field }
+        let (extension, field) = (None, None);
+        Self { item, operator, part, harmonic, logarithm, blend, share, extension, field }
     }
 
     /// `ln ρ` from the harmonic function, within its bounds whatever the mesh; minus infinity on the item itself.
@@ -80,13 +79,6 @@ impl Reach {
     pub(super) fn blend_at(&self, other: &Item, function: &BlendFunction) -> f64 {
         let rho: f64 = other.load().map(|(v, share)| libm::exp(self.logarithm[v]) * share).sum();
         function.value(self.item.range.apply_to_logarithm(libm::log(rho)))
-    }
-
-    pub(super) fn refresh_share(&mut self) {
-        self.share = match &self.weight {
-            None => self.blend.clone(),
-            Some(weight) => self.blend.iter().zip(weight).map(|(blend, weight)| blend * weight).collect(),
-        };
     }
 
     pub(super) fn refresh_field(&mut self, stiffness: &Stiffness) -> Result<(), DisplacementError> {

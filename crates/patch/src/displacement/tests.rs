@@ -113,3 +113,36 @@ fn the_recorded_combinations_are_met() {
         }
     }
 }
+
+/// One more item costs its own pairs alone: what comes of that is, to the bit, what comes of all at once.
+#[test]
+fn items_that_come_one_by_one_are_combined_as_all_at_once() {
+    let domain = mesh(&fixture()["cases"][0]);
+    let free: Vec<usize> = (0..domain.len()).filter(|&v| !domain.held()[v]).collect();
+    let settings = Settings { combination: Combination::Pairwise, ..Settings::default() };
+    let bits = |surface: &mut Displacements| -> Vec<[u64; 3]> {
+        let offsets = surface.offsets().unwrap();
+        offsets.iter().map(|offset| offset.to_array().map(f64::to_bits)).collect()
+    };
+    let mut surface = Displacements::new(domain, settings).unwrap();
+    for (k, &foot) in free.iter().step_by(7).enumerate() {
+        let item = Item::foot(foot, DVec3::new(0.1, -0.2, k as f64));
+        surface.add(item.with_range(Range::new(0.05 * k as f64).unwrap())).unwrap();
+        let one_by_one = bits(&mut surface);
+        // Two items at one vertex are refused, and nothing has changed.
+        assert!(surface.add(Item::foot(foot, DVec3::X)).is_err());
+        assert!(surface.set(k, Item::foot(usize::MAX, DVec3::X)).is_err());
+        surface.set_range(0, Range::new(0.0).unwrap()).unwrap();
+        assert_eq!(bits(&mut surface), one_by_one, "{k}");
+        // This combines all of them anew.
+        surface.set_settings(settings).unwrap();
+        assert_eq!(bits(&mut surface), one_by_one, "{k}");
+    }
+    assert!(surface.items().len() > 5, "there is something to combine");
+    let before = bits(&mut surface);
+    let last = surface.items().last().unwrap().clone();
+    let count = surface.items().len();
+    surface.remove(count - 1).unwrap();
+    surface.add(last).unwrap();
+    assert_eq!(bits(&mut surface), before);
+}

@@ -22,6 +22,10 @@ use glam::DVec3;
 
 /// What the length across the curve weighs beside the planes.
 const REACH_WEIGHT: f64 = 1e-6;
+/// What it weighs where planes turn more than a ribbon of the degree can follow: before it vanishes it shall rather miss them a little.
+const HEAVIER: [f64; 3] = [1e-4, 1e-2, 1.0];
+/// Up to this angle to its planes, in radians, a ribbon follows them: 0.5°.
+const FOLLOWS: f64 = 0.0087;
 /// What the default weighs beside the planes.
 const DEFAULT_WEIGHT: f64 = 1e-9;
 
@@ -89,7 +93,7 @@ pub fn ribbons_raised(
     let given = planes.iter().filter(|plane| !plane.is_own);
     let fair: Vec<PlaneSample> =
         given.map(|plane| PlaneSample::new(plane.side, plane.u, plane.normal)).collect();
-    meet(&mut ribbons, &fair, REACH_WEIGHT);
+    ribbons = followed(ribbons, &fair);
     for ribbon in &mut ribbons {
         *ribbon = (d..least).fold(ribbon.clone(), |ribbon, _| ribbon.elevated());
     }
@@ -100,16 +104,42 @@ pub fn ribbons_raised(
     }
     let ribbons = RibbonLoop::raised(&ribbons, 2)?;
     ribbons.check_pairs(&PAIRS)?;
-    let mut angles = vec![0.0; sides];
-    for plane in planes.iter().filter(|plane| plane.is_for(sides)) {
-        let own = ribbons.ribbons[plane.side].normal(plane.u);
+    let angles = angles(ribbons.ribbons(), planes);
+    Ok(Planed { ribbons, angles })
+}
+
+/// Second rows that follow planes as well as they can.
+fn followed(ribbons: Vec<Ribbon>, planes: &[PlaneSample]) -> Vec<Ribbon> {
+    let mut best = ribbons.clone();
+    meet(&mut best, planes, REACH_WEIGHT);
+    let worst = |ribbons: &[Ribbon]| angles(ribbons, planes).into_iter().fold(0.0, f64::max);
+    let mut least = worst(&best);
+    for weight in HEAVIER {
+        if least <= FOLLOWS {
+            break;
+        }
+        let mut heavier = ribbons.clone();
+        meet(&mut heavier, planes, weight);
+        let angle = worst(&heavier);
+        if angle < least {
+            (best, least) = (heavier, angle);
+        }
+    }
+    best
+}
+
+/// For each side the largest angle between the ribbon's plane and a given one.
+fn angles(ribbons: &[Ribbon], planes: &[PlaneSample]) -> Vec<f64> {
+    let mut angles = vec![0.0; ribbons.len()];
+    for plane in planes.iter().filter(|plane| plane.is_for(ribbons.len())) {
+        let own = ribbons[plane.side].normal(plane.u);
         let turn = own.map_or(core::f64::consts::FRAC_PI_2, |own| {
-            let normal = plane.turned(ribbons.ribbons[plane.side].tangent(plane.u).normalize_or_zero());
+            let normal = plane.turned(ribbons[plane.side].tangent(plane.u).normalize_or_zero());
             libm::atan2(own.cross(normal).length(), own.dot(normal).abs())
         });
         angles[plane.side] = f64::max(angles[plane.side], turn);
     }
-    Ok(Planed { ribbons, angles })
+    angles
 }
 
 impl PlaneSample {

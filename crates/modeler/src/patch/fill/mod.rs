@@ -11,6 +11,7 @@ mod planes;
 mod side;
 #[cfg(test)]
 mod tests;
+mod twist;
 
 pub(crate) use corners::{corners, held, joined};
 pub use error::FillError;
@@ -335,6 +336,7 @@ pub(crate) fn follow(model: &mut Model, relaxer: Option<&Relaxer>) {
             Err(_) => {}
         }
     }
+    let twists = twist::Twists::new(model);
     let mut done: BTreeSet<SurfaceId> = BTreeSet::new();
     let waits = |fill: &Fill, done: &BTreeSet<SurfaceId>| {
         let mut on = fill.sides.iter().filter_map(|side| side.planes);
@@ -350,7 +352,7 @@ pub(crate) fn follow(model: &mut Model, relaxer: Option<&Relaxer>) {
             .collect();
         for id in ready {
             done.insert(id);
-            put_in_planes(model, relaxer, id, is_new.contains(&id));
+            put_in_planes(model, relaxer, &twists, (id, is_new.contains(&id)));
         }
         if done.len() == document.fills.len() {
             break;
@@ -359,8 +361,13 @@ pub(crate) fn follow(model: &mut Model, relaxer: Option<&Relaxer>) {
 }
 
 /// Gives a fill the planes that there are for it now, and builds it if they or its curves are new.
-fn put_in_planes(model: &mut Model, relaxer: Option<&Relaxer>, id: SurfaceId, is_new: bool) {
-    let planes = planes::of(model, relaxer, id);
+fn put_in_planes(
+    model: &mut Model,
+    relaxer: Option<&Relaxer>,
+    twists: &twist::Twists,
+    (id, is_new): (SurfaceId, bool),
+) {
+    let planes = planes::of(model, relaxer, twists, id);
     let Some(shape) = shape(model, id) else { return };
     if shape.is_behind || shape.base.is_none() || !is_new && planes == shape.planes {
         return;

@@ -2,15 +2,16 @@
 //! fills agree on, where neither does.
 //!
 //! An agreed plane lies half way between what the two ribbons would have by themselves. At a corner all curves of fills there
-//! should lie in one plane (see `modeler/network`), and the agreed planes lead up to that one.
+//! should lie in one plane (see `modeler/network`), and the agreed planes lead up to that one, turning as `twist` says.
 
+use super::twist::Twists;
 use super::{Drawn, FillShape, Side, shape};
 use crate::bank;
 use crate::model::Model;
 use crate::patch::PatchRim;
 use crate::relax::Relaxer;
 use ductile_patch::s_patch::Domain;
-use ductile_patch::{PlaneSample, RibbonLoop, curve_derivative, plane_of_directions};
+use ductile_patch::{PlaneSample, Ribbon, RibbonLoop, curve_derivative, plane_of_directions};
 use ductile_spec::{CurveId, CurveStretch, Document, Fill, FillJoin, FillSide, PointId, SurfaceId};
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -90,7 +91,7 @@ impl Given {
 }
 
 /// The planes of all sides of a fill as things are now.
-pub(super) fn of(model: &Model, relaxer: Option<&Relaxer>, id: SurfaceId) -> Vec<Given> {
+pub(super) fn of(model: &Model, relaxer: Option<&Relaxer>, twists: &Twists, id: SurfaceId) -> Vec<Given> {
     let (Some(fill), Some(own)) = (model.document.fills.get(&id), shape(model, id)) else {
         return Vec::new();
     };
@@ -103,7 +104,7 @@ pub(super) fn of(model: &Model, relaxer: Option<&Relaxer>, id: SurfaceId) -> Vec
             Some(beside) if model.surfaces.contains_key(&beside) => of_fair(model, relaxer, beside, drawn),
             Some(beside) if model.document.fills.contains_key(&beside) => of_fill(model, beside, drawn),
             Some(beside) => of_rim(model, beside, drawn),
-            None => agreed(model, id, at, drawn),
+            None => agreed(model, twists, id, at, drawn),
         };
         let lean = Lean { turn: model.document.turn_along(id, side), strength: side.strength };
         // What leans does so beside the planes that it has by itself.
@@ -195,39 +196,79 @@ fn fair(own: &FillShape, at: usize) -> Vec<(f64, DVec3)> {
     places().filter_map(|u| Some((u, ribbon.normal(side.parameter(u))?))).collect()
 }
 
-/// What two fills agree on along a stretch.
-fn agreed(model: &Model, id: SurfaceId, at: usize, side: &Side) -> Vec<(f64, DVec3)> {
+/// What two fills agree on along a stretch: half way between their ribbons, bent at both ends to the planes of the corners.
+pub(super) struct Agreement<'a> {
+    /// Both ribbons, with their sides.
+    between: [(&'a Ribbon, &'a Side); 2],
+    /// What is to be added to the normal at the ends.
+    bends: [DVec3; 2],
+}
+
+/// What a fill and another one agree on along a side, if they do.
+pub(super) fn agreement<'a>(
+    model: &'a Model,
+    id: SurfaceId,
+    at: usize,
+    side: &'a Side,
+) -> Option<Agreement<'a>> {
     let stretch = side.drawn.stretch;
-    let asked = model.document.fills.get(&id).and_then(|fill| fill.sides.get(at));
-    let found = asked.and_then(|asked| model.document.partner(id, asked)).and_then(|(other, ..)| {
-        let (place, there) = side_on(model, other, stretch)?;
-        Some((shape(model, other)?.base.as_ref()?, place, there))
-    });
-    let (Some((base, place, there)), Some(own)) =
-        (found, shape(model, id).and_then(|shape| shape.base.as_ref()))
-    else {
-        return Vec::new();
-    };
-    // Normals as they would be if the side ran with the curve; beyond a smooth seam that is the other way up.
-    let normal = |ring: &RibbonLoop, place: usize, side: &Side, u: f64| {
-        let normal = ring.ribbons().get(place)?.normal(side.parameter(u))?;
-        Some(if side.drawn.back { -normal } else { normal })
-    };
-    let between = |u: f64| {
-        let sum = normal(own, at, side, u)? - normal(base, place, there, u)?;
-        (sum.length() > FOLDED).then(|| sum.try_normalize()).flatten()
-    };
+    let asked = model.document.fills.get(&id)?.sides.get(at).filter(|asked| asked.planes.is_none())?;
+    let (other, ..) = model.document.partner(id, asked)?;
+    let (place, there) = side_on(model, other, stretch)?;
+    let ribbon = |id, at: usize| shape(model, id)?.base.as_ref()?.ribbons().get(at);
+    let between = [(ribbon(id, at)?, side), (ribbon(other, place)?, there)];
+    let mut agreement = Agreement { between, bends: [DVec3::ZERO; 2] };
     let ends = [(stretch.from, 0.0), (stretch.to, 1.0)].map(|(point, u)| {
-        let (wanted, now) = (plane_at(model, point)?, between(u)?);
+        let (wanted, now) = (plane_at(model, point)?, agreement.half_way(u)?);
         Some(if wanted.dot(now) < 0.0 { -wanted - now } else { wanted - now })
     });
-    let [first, last] = ends.map(Option::unwrap_or_default);
-    let lead = |u: f64| {
+    agreement.bends = ends.map(Option::unwrap_or_default);
+    Some(agreement)
+}
+
+impl Agreement<'_> {
+    /// The unit normal half way, by the parameter in the sense of the control curve.
+    fn half_way(&self, u: f64) -> Option<DVec3> {
+        // Normals as they would be if the side ran with the curve; beyond a smooth seam that is the other way up.
+        let normal = |(ribbon, side): (&Ribbon, &Side)| {
+            let normal = ribbon.normal(side.parameter(u))?;
+            Some(if side.drawn.back { -normal } else { normal })
+        };
+        let sum = normal(self.between[0])? - normal(self.between[1])?;
+        (sum.length() > FOLDED).then(|| sum.try_normalize()).flatten()
+    }
+
+    /// The normal, not quite of length 1.
+    fn bent(&self, u: f64) -> Option<DVec3> {
         // Both bends start at their end with slope zero, so that the planes do not turn in haste.
         let ease = |t: f64| (1.0 - t) * (1.0 - t) * (1.0 + 2.0 * t);
-        Some((u, between(u)? + first * ease(u) + last * ease(1.0 - u)))
+        Some(self.half_way(u)? + self.bends[0] * ease(u) + self.bends[1] * ease(1.0 - u))
+    }
+
+    /// The unit normal of the plane that has the tangent of the Bézier curve with these control points in it.
+    pub(super) fn normal(&self, points: &[DVec3], u: f64) -> Option<DVec3> {
+        let (normal, along) = (self.bent(u)?, curve_derivative(points, u).normalize_or_zero());
+        (normal - along * along.dot(normal)).try_normalize()
+    }
+}
+
+/// The derivative with which a Bézier curve leaves its first point, or its last one.
+pub(super) fn leaving(points: &[DVec3], is_last: bool) -> DVec3 {
+    if is_last { -curve_derivative(points, 1.0) } else { curve_derivative(points, 0.0) }
+}
+
+/// The normals that two fills agree on along a stretch; at its ends they turn as the corners ask for.
+fn agreed(model: &Model, twists: &Twists, id: SurfaceId, at: usize, side: &Side) -> Vec<(f64, DVec3)> {
+    let Some(agreement) = agreement(model, id, at, side) else { return Vec::new() };
+    let slope = |is_last: bool| {
+        let end = agreement.bent(if is_last { 1.0 } else { 0.0 })?;
+        Some(twists.slope((side.drawn.stretch, is_last), end, leaving(&side.fit.points, is_last)))
     };
-    places().filter_map(lead).collect()
+    let [first, last] = [false, true].map(|is_last| slope(is_last).unwrap_or_default());
+    // Of slope 1 at its end, and gone with slope zero at the other one.
+    let turn = |t: f64| t * (1.0 - t) * (1.0 - t);
+    let normal = |u: f64| Some((u, agreement.bent(u)? + first * turn(u) + last * turn(1.0 - u)));
+    places().filter_map(normal).collect()
 }
 
 /// The normal of the plane in which all curves of fills at a corner lie, if they nearly do.

@@ -5,19 +5,25 @@ use ductile_spec::SeamFigures;
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
+/// Around an odd number of curves the planes can turn so that all twist points agree: up to what ribbons of degree 7 cannot follow, in
+/// degrees (0.001° measured).
+const ODD: f64 = 0.01;
+/// Walls that bulge turn more (0.024°; 0.29° to 0.32° where planes lie half way at the corners, too).
+const WALLS: f64 = 0.05;
+
 fn fill_all(modeler: &mut Modeler) -> Vec<SeamFigures> {
     edit(modeler, Edit::FillNetwork { curve: None, style: FillStyle::default() });
     rest(modeler);
     seams(modeler).seams
 }
 
-/// Fails unless patches meet without a gap and in one plane, and tells how well they do.
-fn check(name: &str, found: &[SeamFigures], count: usize) {
+/// Fails unless patches meet without a gap and, to an angle in degrees, in one plane, and tells how well they do.
+fn check(name: &str, found: &[SeamFigures], count: usize, most: f64) {
     let worst = |of: fn(&SeamFigures) -> f64| found.iter().map(of).fold(0.0, f64::max);
     let (gap, angle) = (worst(|seam| seam.gap), worst(|seam| seam.angle));
     println!("{name}: {} seams, gap {gap:.1e}, angle {angle:.3}°", found.len());
     assert_eq!(found.len(), count, "{name}");
-    assert!(gap < 1e-12 && angle < 0.5, "{name}: {found:?}");
+    assert!(gap < 1e-12 && angle < most, "{name}: {found:?}");
     assert!(found.iter().all(|seam| seam.without_normal == 0), "{name}: {found:?}");
 }
 
@@ -65,7 +71,7 @@ fn a_vertex_of_two_curves_is_smooth_where_one_goes_on_as_the_other() {
     });
     let found = fill_all(&mut modeler);
     assert_eq!(modeler.model().document.fills.len(), 2);
-    check("2 curves", &found, 1);
+    check("2 curves", &found, 1, 0.5);
     // Two curves that end there with one direction are no corner, and no side by themselves either: that is told.
     let mut modeler = divided(|modeler, [from, to], inner| {
         for (from, to) in [(from, inner), (inner, to)] {
@@ -106,25 +112,54 @@ fn a_patch_that_folds_where_its_hole_turns_outwards_is_told() {
 
 #[test]
 fn a_vertex_of_three_curves_joins_smoothly() {
-    check("3 curves", &fill_all(&mut dome(3)), 3);
+    check("3 curves", &fill_all(&mut dome(3)), 3, ODD);
 }
 
 #[test]
 fn a_vertex_of_four_curves_joins_smoothly() {
-    check("4 curves", &fill_all(&mut dome(4)), 4);
+    check("4 curves", &fill_all(&mut dome(4)), 4, 0.05);
 }
 
 #[test]
 fn a_vertex_of_five_curves_joins_smoothly() {
-    check("5 curves", &fill_all(&mut dome(5)), 5);
+    check("5 curves", &fill_all(&mut dome(5)), 5, ODD);
 }
 
 #[test]
 fn a_vertex_of_six_curves_joins_smoothly() {
-    check("6 curves", &fill_all(&mut dome(6)), 6);
+    check("6 curves", &fill_all(&mut dome(6)), 6, 0.5);
 }
 
 #[test]
 fn a_vertex_of_seven_curves_joins_smoothly() {
-    check("7 curves", &fill_all(&mut dome(7)), 7);
+    check("7 curves", &fill_all(&mut dome(7)), 7, ODD);
+}
+
+/// Five walls between two pentagons: corners with three curves, patches with four and five sides.
+#[test]
+fn the_patches_of_a_prism_join_smoothly_and_stay_so_in_a_drag() {
+    let mut modeler = Modeler::new();
+    let floor = ring(&mut modeler, 5, 1.0, 0.1);
+    let at = |k: usize| {
+        let (sin, cos) = libm::sincos((k as f64) * core::f64::consts::TAU / 5.0);
+        [cos, sin, 1.2]
+    };
+    let roof: Vec<PointId> = (0..5).map(|k| point(&mut modeler, at(k))).collect();
+    let centre = DVec3::new(0.0, 0.0, 0.6);
+    for k in 0..5 {
+        for [from, to] in [[floor[k], roof[k]], [floor[k], floor[(k + 1) % 5]], [roof[k], roof[(k + 1) % 5]]]
+        {
+            let places = &modeler.model().document.points;
+            let out = ((places[&from] + places[&to]) * 0.5 - centre) * 0.3;
+            arc(&mut modeler, from, to, out);
+        }
+    }
+    rest(&mut modeler);
+    check("prism", &fill_all(&mut modeler), 15, WALLS);
+    ask(&mut modeler, Request::Grab(GrabTarget::Point(roof[0])));
+    for step in 1..=5 {
+        let to = DVec3::from(at(0)) + DVec3::new(0.04, 0.02, 0.06) * f64::from(step);
+        ask(&mut modeler, Request::Step(Step { drag: Some(to), iterations: 20 }));
+        check("dragged", &seams(&mut modeler).seams, 15, WALLS);
+    }
 }
