@@ -4,15 +4,18 @@ use crate::density;
 use crate::error::ModelError;
 use crate::growth::{Beginning, Ground};
 use crate::patch::{self, PatchShape};
-use crate::rehydrate::{build_curve, build_surface, check_extents};
+use crate::rehydrate::{Fineness, build_curve, build_surface, check_extents};
 use crate::shape::{CurveShape, SurfaceShape, edit};
 use ductile_spec::{CurveId, Document, PointId, SurfaceId};
 use glam::DVec3;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Most nodes that all surfaces may have together; above it the spacing grows.
+/// Most nodes that a surface may come to have by acts and drags, unless the document asked for more when it was opened or its
+/// spacing was chosen: nobody pulls a point far away to have a mesh that is six times as slow.
 pub(crate) const NODE_BUDGET: usize = 20_000;
+/// Most nodes that a document may ask for by its spacing.
+pub(crate) const MOST_NODES: usize = 120_000;
 /// Spacing of a new document, as a part of the model's radius: about 700 nodes on a disc.
 const DEFAULT_SPACING: f64 = 0.07;
 
@@ -31,6 +34,8 @@ pub struct Model {
     pub(crate) making: Making,
     /// Whether they had come to rest when they were last seen.
     pub(crate) rests: bool,
+    /// Nodes of the largest surface when the document was opened.
+    asked: usize,
     revisions: u64,
 }
 
@@ -93,7 +98,7 @@ impl Model {
     }
 
     fn build(document: Arc<Document>, revisions: u64, beginning: Beginning) -> Result<Self, ModelError> {
-        let mut model = Self { document, revisions, ..Self::default() };
+        let mut model = Self { document, revisions, asked: MOST_NODES, ..Self::default() };
         for id in model.document.curves.keys().copied().collect::<Vec<_>>() {
             model.build_curve(id)?;
         }
@@ -104,6 +109,7 @@ impl Model {
         for id in exact.chain(model.document.meshes.keys()).copied().collect::<Vec<_>>() {
             model.build_patch(id)?;
         }
+        model.asked = model.surfaces.values().map(|shape| shape.mesh.vertex_count()).max().unwrap_or(0);
         patch::follow(&mut model, None);
         // Whether a loop of curves can be filled changes with the curves; of ribbons it is known once and for all.
         for (surface, fill) in model.document.fills.iter().filter(|(_, fill)| fill.sides.is_empty()) {
@@ -111,6 +117,11 @@ impl Model {
             debug_assert!(!fill.ribbons.is_empty(), "the document is valid");
         }
         Ok(model)
+    }
+
+    /// Most nodes that a surface may come to have now.
+    pub(crate) fn most_nodes(&self) -> usize {
+        if self.asked <= NODE_BUDGET { NODE_BUDGET } else { (self.asked + self.asked / 4).min(MOST_NODES) }
     }
 
     /// Whether the document, whose controls were moved, could be opened again.
@@ -175,11 +186,14 @@ impl Model {
         if !self.document.surfaces.contains_key(&id) {
             return Err(ModelError::NoSurface(id));
         }
-        let spacing = self.spacing_of(id);
-        let is_graded = density::graded(self).contains(&id);
+        let fineness = Fineness {
+            spacing: self.spacing_of(id),
+            is_graded: density::graded(self).contains(&id),
+            most_nodes: self.most_nodes(),
+        };
         let revision = self.next_revision();
         let ground = Ground { document: &self.document, curves: &self.curves, id };
-        build_surface(&ground, beginning, (spacing, is_graded), revision)
+        build_surface(&ground, beginning, fineness, revision)
     }
 
     /// Whether a fill could follow its curves.
