@@ -261,3 +261,29 @@ pub(crate) fn round_to_digits(value: f64, digits: usize) -> f64 {
     // Through the decimal text: exact on every machine, which powers and logarithms are not.
     format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::example::example;
+    use ductile_spec::Example;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    #[test]
+    fn a_document_may_ask_for_more_nodes_than_an_act_or_a_drag_may_come_to() {
+        let mut model = Model::from_document(example(Example::Disc)).unwrap();
+        assert_eq!(model.most_nodes(), NODE_BUDGET);
+        // A disc of radius 1 with edges of 0.01 has 36,000 nodes.
+        model.document_mut().spacing = Some(0.01);
+        assert!(matches!(model.check_extents(), Err(ModelError::TooFine { limit: NODE_BUDGET, .. })));
+        // Had it been opened so, it could go on, with some room for what is pulled.
+        model.asked = 36_000;
+        assert_eq!((model.most_nodes(), model.check_extents()), (45_000, Ok(())));
+        model.asked = 110_000;
+        assert_eq!(model.most_nodes(), MOST_NODES);
+        model.document_mut().spacing = Some(0.005);
+        let opened = Model::from_document((*model.document).clone());
+        assert!(matches!(opened, Err(ModelError::TooFine { limit: MOST_NODES, .. })), "{opened:?}");
+    }
+}
