@@ -36,6 +36,13 @@ const FOLDED: f64 = -0.985;
 const AGREEING: f64 = 1.01;
 /// Meshes with more vertices are not grown in all ways: the first way that they resolve is taken.
 const LARGE: usize = 4000;
+/// Rounds of relaxation of a mesh that is large and still coarse: what they do not mend the finer one would have to, at four times
+/// the price.
+const LARGE_ROUNDS: usize = 4;
+/// Rounds of steps and an improvement at full density, after those.
+const FINE_ROUNDS_OF_LARGE: usize = 2;
+/// Meshes with more vertices are so large that the rounds at full density are what one waits for.
+const HUGE: usize = 20_000;
 /// Vertices of all ways tried together from which on no other is tried: a shape that no way resolves may be much larger each time
 /// than it should be, and must not keep everybody waiting.
 const ENOUGH: usize = 24_000;
@@ -129,11 +136,19 @@ impl Start {
         }
     }
 
-    /// Relaxes a skin that is refined to a multiple of the spacing, if this is such a start.
+    /// Relaxes a skin that is refined to a multiple of the spacing, if this is such a start or the skin is large already.
     pub(crate) fn grow(self, ground: &Ground<'_>, shape: &mut SurfaceShape, stride: usize) {
-        if stride == 2 {
+        let is_large = shape.mesh.vertex_count() > LARGE;
+        let rounds = match stride {
+            0 | 1 => 0,
+            2 if is_large => self.coarse.max(LARGE_ROUNDS),
+            2 => self.coarse,
+            _ if is_large => LARGE_ROUNDS,
+            _ => 0,
+        };
+        if rounds > 0 {
             // What cannot be relaxed now is told when it is relaxed at its spacing.
-            let _ = ground.rounds(shape, stride, (self.coarse, Objective::ThinPlate));
+            let _ = ground.rounds(shape, stride, (rounds, Objective::ThinPlate));
         }
     }
 }
@@ -230,7 +245,9 @@ impl Ground<'_> {
     }
 
     fn relaxed(&self, shape: &mut SurfaceShape) -> Result<BoundSurface, ModelError> {
-        let mut bound = self.rounds(shape, 1, (FINE_ROUNDS, Objective::ThinPlate))?;
+        let is_huge = shape.mesh.vertex_count() > HUGE;
+        let rounds = if is_huge { FINE_ROUNDS_OF_LARGE } else { FINE_ROUNDS };
+        let mut bound = self.rounds(shape, 1, (rounds, Objective::ThinPlate))?;
         if self.is_fair() {
             drop(bound);
             bound = self.rounds(shape, 1, (FAIR_ROUNDS, Objective::Fair))?;

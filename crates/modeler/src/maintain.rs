@@ -4,12 +4,13 @@
 use crate::bound::BoundSurface;
 use crate::density::{self, Along};
 use crate::error::ModelError;
-use crate::model::{Model, NODE_BUDGET};
+use crate::model::{MOST_NODES, Model, NODE_BUDGET};
+use crate::rehydrate::NODES_FOR_A_SQUARE;
 use crate::shadow;
 use crate::shape::{CurveShape, SurfaceShape, edit};
 
 use ductile_mesh::remesh::{self, Ledger, Limits, Sizing};
-use ductile_mesh::{EdgeId, Mesh};
+use ductile_mesh::{EdgeId, Mesh, measure};
 use ductile_solver::{respace, respace_graded};
 use ductile_spec::{CurveId, SurfaceId};
 use glam::DVec3;
@@ -128,13 +129,14 @@ pub(crate) fn surface(
     upkeep: &mut Upkeep,
     (slack, may_collapse): (f64, bool),
 ) -> bool {
+    let most_vertices = model.most_nodes();
     let Some(shape) = model.surfaces.get_mut(&id).map(edit::<SurfaceShape>) else { return false };
     if upkeep.revision != shape.revision {
         *upkeep = Upkeep { revision: shape.revision, ledger: Ledger::default() };
     }
     let mut place = on_fit(bound);
     let mut sizing = take_sizing(shape, 1);
-    let limits = Limits { most_vertices: NODE_BUDGET, may_collapse, ..Limits::default() };
+    let limits = Limits { most_vertices, may_collapse, ..Limits::default() };
     let (mesh, positions) = (&mut shape.mesh, &mut shape.positions);
     let ledger = (&mut upkeep.ledger, slack);
     let edits = remesh::improve_changed(mesh, positions, &mut sizing, ledger, &limits, &mut place);
@@ -194,10 +196,22 @@ pub(crate) fn thin_out(model: &mut Model, id: SurfaceId) -> Result<(), ModelErro
     BoundSurface::new(id, shape).map(drop)
 }
 
+/// Most vertices of a mesh that was found to be affordable: with some room for what its area and spacing ask for.
+fn room(shape: &SurfaceShape) -> usize {
+    let area = measure::total_area(&shape.mesh, &shape.positions);
+    let asked = 1.25 * NODES_FOR_A_SQUARE * area / (shape.spacing * shape.spacing);
+    if asked.is_nan() || asked <= NODE_BUDGET as f64 {
+        return NODE_BUDGET;
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive, and saturates")]
+    let asked = asked as usize;
+    asked.min(MOST_NODES)
+}
+
 /// Refines a skeleton to a multiple of the spacing.
 pub(crate) fn refine(shape: &mut SurfaceShape, coarseness: usize) {
+    let limits = Limits { most_vertices: room(shape), growth: 1.0, ..Limits::default() };
     let mut sizing = take_sizing(shape, coarseness);
-    let limits = Limits { most_vertices: NODE_BUDGET, growth: 1.0, ..Limits::default() };
     for _ in 0..REFINEMENTS {
         let edits = remesh::improve(
             &mut shape.mesh,
@@ -217,8 +231,8 @@ pub(crate) fn refine(shape: &mut SurfaceShape, coarseness: usize) {
 
 /// Improves a mesh that is refined to a multiple of the spacing, once; new vertices lie on the fitted surface.
 pub(crate) fn tend(shape: &mut SurfaceShape, bound: &BoundSurface, coarseness: usize) {
+    let limits = Limits { most_vertices: room(shape), ..Limits::default() };
     let mut sizing = take_sizing(shape, coarseness);
-    let limits = Limits { most_vertices: NODE_BUDGET, ..Limits::default() };
     let mut place = on_fit(bound);
     remesh::improve(&mut shape.mesh, &mut shape.positions, &mut sizing, &limits, &mut place);
     if let Sizing::PerVertex(wanted) = sizing {

@@ -4,15 +4,18 @@ use crate::density;
 use crate::error::ModelError;
 use crate::growth::{Beginning, Ground};
 use crate::patch::{self, PatchShape};
-use crate::rehydrate::{build_curve, build_surface, check_extents};
+use crate::rehydrate::{Fineness, build_curve, build_surface, check_extents};
 use crate::shape::{CurveShape, SurfaceShape, edit};
 use ductile_spec::{CurveId, Document, PointId, SurfaceId};
 use glam::DVec3;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Most nodes that all surfaces may have together; above it the spacing grows.
+/// Most nodes that a surface may come to have by acts and drags, unless the document asked for more when it was opened or its
+/// spacing was chosen: nobody pulls a point far away to have a mesh that is six times as slow.
 pub(crate) const NODE_BUDGET: usize = 20_000;
+/// Most nodes that a document may ask for by its spacing.
+pub(crate) const MOST_NODES: usize = 120_000;
 /// Spacing of a new document, as a part of the model's radius: about 700 nodes on a disc.
 const DEFAULT_SPACING: f64 = 0.07;
 
@@ -31,6 +34,8 @@ pub struct Model {
     pub(crate) making: Making,
     /// Whether they had come to rest when they were last seen.
     pub(crate) rests: bool,
+    /// Nodes of the largest surface when the document was opened.
+    asked: usize,
     revisions: u64,
 }
 
@@ -96,7 +101,7 @@ impl Model {
     }
 
     fn build(document: Arc<Document>, revisions: u64, beginning: Beginning) -> Result<Self, ModelError> {
-        let mut model = Self { document, revisions, ..Self::default() };
+        let mut model = Self { document, revisions, asked: MOST_NODES, ..Self::default() };
         for id in model.document.curves.keys().copied().collect::<Vec<_>>() {
             model.build_curve(id)?;
         }
@@ -107,6 +112,7 @@ impl Model {
         for id in exact.chain(model.document.meshes.keys()).copied().collect::<Vec<_>>() {
             model.build_patch(id)?;
         }
+        model.asked = model.surfaces.values().map(|shape| shape.mesh.vertex_count()).max().unwrap_or(0);
         patch::follow(&mut model, None);
         // Whether a loop of curves can be filled changes with the curves; of ribbons it is known once and for all.
         for (surface, fill) in model.document.fills.iter().filter(|(_, fill)| fill.sides.is_empty()) {
@@ -114,6 +120,11 @@ impl Model {
             debug_assert!(!fill.ribbons.is_empty(), "the document is valid");
         }
         Ok(model)
+    }
+
+    /// Most nodes that a surface may come to have now.
+    pub(crate) fn most_nodes(&self) -> usize {
+        if self.asked <= NODE_BUDGET { NODE_BUDGET } else { (self.asked + self.asked / 4).min(MOST_NODES) }
     }
 
     /// Whether the document, whose controls were moved, could be opened again.
@@ -178,11 +189,14 @@ impl Model {
         if !self.document.surfaces.contains_key(&id) {
             return Err(ModelError::NoSurface(id));
         }
-        let spacing = self.spacing_of(id);
-        let is_graded = density::graded(self).contains(&id);
+        let fineness = Fineness {
+            spacing: self.spacing_of(id),
+            is_graded: density::graded(self).contains(&id),
+            most_nodes: self.most_nodes(),
+        };
         let revision = self.next_revision();
         let ground = Ground { document: &self.document, curves: &self.curves, id };
-        build_surface(&ground, beginning, (spacing, is_graded), revision)
+        build_surface(&ground, beginning, fineness, revision)
     }
 
     /// Whether a fill could follow its curves.
@@ -249,4 +263,30 @@ pub(crate) fn round_to_digits(value: f64, digits: usize) -> f64 {
     }
     // Through the decimal text: exact on every machine, which powers and logarithms are not.
     format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::example::example;
+    use ductile_spec::Example;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    #[test]
+    fn a_document_may_ask_for_more_nodes_than_an_act_or_a_drag_may_come_to() {
+        let mut model = Model::from_document(example(Example::Disc)).unwrap();
+        assert_eq!(model.most_nodes(), NODE_BUDGET);
+        // A disc of radius 1 with edges of 0.01 has 36,000 nodes.
+        model.document_mut().spacing = Some(0.01);
+        assert!(matches!(model.check_extents(), Err(ModelError::TooFine { limit: NODE_BUDGET, .. })));
+        // Had it been opened so, it could go on, with some room for what is pulled.
+        model.asked = 36_000;
+        assert_eq!((model.most_nodes(), model.check_extents()), (45_000, Ok(())));
+        model.asked = 110_000;
+        assert_eq!(model.most_nodes(), MOST_NODES);
+        model.document_mut().spacing = Some(0.005);
+        let opened = Model::from_document((*model.document).clone());
+        assert!(matches!(opened, Err(ModelError::TooFine { limit: MOST_NODES, .. })), "{opened:?}");
+    }
 }

@@ -21,6 +21,20 @@ const CURVE_STEPS: usize = 80;
 /// Below this part of the largest coordinate a shape has no extent.
 const LEAST_EXTENT: f64 = 1e-9;
 
+/// Nodes of a regular mesh for each square of its edge length: 2 / √3.
+pub(crate) const NODES_FOR_A_SQUARE: f64 = 1.155;
+
+/// How fine a surface is to be.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Fineness {
+    /// Length of its edges.
+    pub(crate) spacing: f64,
+    /// Whether the document asks for other lengths somewhere.
+    pub(crate) is_graded: bool,
+    /// Nodes that it may not need more than.
+    pub(crate) most_nodes: usize,
+}
+
 /// Samples a curve of the document and brings it to rest.
 pub(crate) fn build_curve(
     document: &Document,
@@ -110,20 +124,24 @@ pub(crate) fn check_extents(model: &Model) -> Result<(), ModelError> {
         let positions = positions.collect::<Result<Vec<_>, _>>()?;
         let corners = surface.skeleton.triangles.iter().map(|t| t.map(|v| positions[v as usize]));
         let area: f64 = corners.map(|[a, b, c]| 0.5 * (b - a).cross(c - a).length()).sum();
-        check_area(*id, area, &positions, model.spacing_of(*id))?;
+        check_area(*id, area, &positions, (model.spacing_of(*id), model.most_nodes()))?;
     }
     Ok(())
 }
 
 /// Whether a surface has an area, and one that can be meshed at a spacing.
-fn check_area(id: SurfaceId, area: f64, positions: &[DVec3], spacing: f64) -> Result<(), ModelError> {
+fn check_area(
+    id: SurfaceId,
+    area: f64,
+    positions: &[DVec3],
+    (spacing, most_nodes): (f64, usize),
+) -> Result<(), ModelError> {
     let largest = positions.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
     let least = LEAST_EXTENT * (1.0 + largest);
     if area.is_nan() || area <= least * least {
         return Err(ModelError::NoExtent(id.to_string()));
     }
-    // A regular mesh has 2 / sqrt(3) nodes for each square of its edge length.
-    check_budget(spacing, 1.155 * area / (spacing * spacing), NODE_BUDGET)
+    check_budget(spacing, NODES_FOR_A_SQUARE * area / (spacing * spacing), most_nodes)
 }
 
 /// Edges of a stretch: as many as its length asks for, and no fewer than a skeleton's path has there.
@@ -172,7 +190,7 @@ fn hermite(from: DVec3, to: DVec3, leaving: DVec3, arriving: DVec3, t: f64) -> D
 pub(crate) fn build_surface(
     ground: &Ground<'_>,
     beginning: Beginning,
-    (spacing, is_graded): (f64, bool),
+    fineness: Fineness,
     revision: u64,
 ) -> Result<SurfaceShape, ModelError> {
     let Ground { document, curves, id } = *ground;
@@ -191,7 +209,8 @@ pub(crate) fn build_surface(
             }
         });
     }
-    check_area(id, measure::total_area(&mesh, &positions), &positions, spacing)?;
+    let Fineness { spacing, is_graded, most_nodes } = fineness;
+    check_area(id, measure::total_area(&mesh, &positions), &positions, (spacing, most_nodes))?;
     for embedding in &skeleton.curves {
         let curve = curves.get(&embedding.curve).ok_or(ModelError::NoCurve(embedding.curve))?;
         mark_path(&mut mesh, embedding, curve.closed);

@@ -66,6 +66,10 @@ impl Blocks {
             first += width;
         }
         layout.values = vec![0.0; layout.sources.len()];
+        // They stay as they are for as long as the mesh does.
+        layout.sources.shrink_to_fit();
+        layout.rows.shrink_to_fit();
+        layout.blocks.shrink_to_fit();
         layout
     }
 

@@ -35,17 +35,15 @@ pub struct FactorError;
 pub(crate) struct Cholesky {
     pattern: SymbolicSparseColMat<u32>,
     symbolic: Arc<SymbolicCholesky<u32>>,
-    factor: Vec<f64>,
     blocks: Blocks,
     /// Per place in the factor's order the unknown that sits there.
     order: Arc<[u32]>,
     ordered: Vec<f64>,
-    scratch: MemBuffer,
 }
 
 impl std::fmt::Debug for Cholesky {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Cholesky").field("entries", &self.factor.len()).finish_non_exhaustive()
+        f.debug_struct("Cholesky").field("entries", &self.symbolic.len_val()).finish_non_exhaustive()
     }
 }
 
@@ -54,11 +52,9 @@ impl Clone for Cholesky {
         Self {
             pattern: self.pattern.clone(),
             symbolic: Arc::clone(&self.symbolic),
-            factor: self.factor.clone(),
             blocks: self.blocks.clone(),
             order: Arc::clone(&self.order),
             ordered: self.ordered.clone(),
-            scratch: MemBuffer::new(scratch_size(&self.symbolic)),
         }
     }
 }
@@ -80,27 +76,28 @@ impl Cholesky {
         };
         let blocks = Blocks::new(columns.col_ptr(), columns.row_idx());
         let order = symbolic.perm().ok_or(FactorError)?.arrays().0.into();
-        let factor = vec![0.0; symbolic.len_val()];
-        let scratch = MemBuffer::new(scratch_size(&symbolic));
         let ordered = vec![0.0; size];
-        Ok(Self { pattern, symbolic: Arc::new(symbolic), factor, blocks, order, ordered, scratch })
+        Ok(Self { pattern, symbolic: Arc::new(symbolic), blocks, order, ordered })
     }
 
     /// Refreshes the numbers; `values` are parallel to the rows of the pattern.
     pub(crate) fn refactor(&mut self, values: &[f64]) -> Result<(), FactorError> {
         let matrix = SparseColMatRef::new(self.pattern.as_ref(), values);
+        // The blocks take the numbers over, and they are many: nothing keeps them in between.
+        let mut factor = vec![0.0; self.symbolic.len_val()];
+        let mut scratch = MemBuffer::new(scratch_size(&self.symbolic));
         self.symbolic
             .factorize_numeric_llt(
-                &mut self.factor,
+                &mut factor,
                 matrix,
                 Side::Upper,
                 LltRegularization::default(),
                 Par::Seq,
-                MemStack::new(&mut self.scratch),
+                MemStack::new(&mut scratch),
                 faer::Spec::default(),
             )
             .map_err(|_| FactorError)?;
-        self.blocks.refresh(&self.factor);
+        self.blocks.refresh(&factor);
         Ok(())
     }
 

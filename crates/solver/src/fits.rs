@@ -212,6 +212,31 @@ impl Fits {
         }
     }
 
+    /// Fits from now on only what is active; all nodes are fitted as they stand.
+    pub(crate) fn take_active(&mut self, active: Arc<Active>) {
+        // What was not fitted of late may lack rows and gradient.
+        if self.active.is_some() {
+            self.has = Wanted::Energy;
+        }
+        self.active = Some(active);
+    }
+
+    /// Takes over what others know of every node, to go on with what is active. Rows and gradient are theirs alone.
+    pub(crate) fn follow(&mut self, other: &Self, active: Arc<Active>) {
+        if other.variation.is_some() {
+            self.clone_from(other);
+        } else {
+            self.nodes.copy_from_slice(&other.nodes);
+            self.energies.copy_from_slice(&other.energies);
+            self.lengths.copy_from_slice(&other.lengths);
+            self.positions.copy_from_slice(&other.positions);
+            self.clamps.clone_from(&other.clamps);
+            self.energy = other.energy;
+        }
+        self.has = Wanted::Energy;
+        self.active = Some(active);
+    }
+
     /// Takes these positions over into an array that knows those of the nodes that are not fitted.
     pub(crate) fn copy_positions(&self, into: &mut [DVec3]) {
         match &self.active {

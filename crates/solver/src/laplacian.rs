@@ -198,7 +198,7 @@ fn triangles(rings: &Rings, edge_of_slot: &[u32]) -> Vec<([u32; 3], [u32; 3])> {
         place.map_or(0, |place| edge_of_slot[rings.slots(from).start + place])
     };
     let of_spoke = |node: usize, place: usize| edge_of_slot[rings.slots(node).start + place];
-    let mut triangles = Vec::new();
+    let mut triangles = Vec::with_capacity(rings.triangles().len());
     for (node, index) in (0..rings.len()).zip(0_u32..) {
         let ring = rings.ring(node);
         let gaps = crate::neighbourhood::gaps(ring.len(), rings.is_boundary(node));

@@ -15,6 +15,7 @@
 //! ```
 
 mod advance;
+mod bays;
 mod figures;
 mod frozen;
 mod matrix;
@@ -44,8 +45,9 @@ use crate::report::StepReport;
 use crate::rings::Rings;
 use crate::smooth::{self, Aim, EdgePlaces, SmoothReport};
 
+use bays::Bays;
 use matrix::{Matrix, Scratch};
-use sleep::{Bays, Sleep};
+use sleep::Sleep;
 
 /// Fair surfaces over one frozen connectivity.
 #[derive(Clone, Debug)]
@@ -80,6 +82,8 @@ pub struct SurfaceSolver {
     damping: f64,
     quiet_steps: u32,
     still_steps: u32,
+    /// Whether the last step ended at rest, and nothing was changed since.
+    rests: bool,
     /// What the fits at the end of a step should hold.
     next_wanted: Wanted,
 }
@@ -113,6 +117,7 @@ impl SurfaceSolver {
             damping: 1.0,
             quiet_steps: 0,
             still_steps: 0,
+            rests: false,
             next_wanted: Wanted::Gradient,
             unknowns,
             settings,
@@ -189,7 +194,7 @@ impl SurfaceSolver {
         if moves.iter().all(|&(_, displacement)| displacement == DVec3::ZERO) {
             return Ok(Predicted { fraction: 1.0, ..Predicted::default() });
         }
-        self.heed_moves(&moves);
+        self.heed_moves(positions, &moves)?;
         self.refit(positions, Wanted::Rows);
         self.prepare()?;
         self.assembly.assemble(&self.rings, &self.goals, &self.fits, Rows::Field, |_| 0.0);
@@ -276,6 +281,7 @@ impl SurfaceSolver {
         };
         self.advance(positions, &mut report);
         report.at_rest &= report.turning == 0.0;
+        self.rests = report.at_rest;
         Ok(report)
     }
 

@@ -15,6 +15,8 @@ const MOST_ITERATIONS: u32 = 40;
 const STEP_MILLISECONDS: f64 = 12.0;
 /// A worker that has not answered for so long hangs.
 const HANG_MILLISECONDS: f64 = 20_000.0;
+/// The same while it opens a document or builds everything anew: a hundred thousand nodes take their time.
+const OPENING_HANG_MILLISECONDS: f64 = 90_000.0;
 
 /// What a reply answers.
 #[derive(Clone, Debug, PartialEq)]
@@ -182,7 +184,10 @@ impl Schedule {
     /// Whether the worker hangs.
     #[must_use]
     pub fn is_overdue(&self, now: f64) -> bool {
-        self.in_flight.as_ref().is_some_and(|(_, since)| now - since > HANG_MILLISECONDS)
+        self.in_flight.as_ref().is_some_and(|(request, since)| {
+            let builds = is_opening(request) || matches!(request, Request::Edit(Edit::Spacing { .. }));
+            now - since > if builds { OPENING_HANG_MILLISECONDS } else { HANG_MILLISECONDS }
+        })
     }
 
     /// Counts the time of waiting anew, after a time when the page could not look.

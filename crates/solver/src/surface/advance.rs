@@ -10,7 +10,7 @@ use crate::line_search::{Found, Search};
 use crate::report::StepReport;
 
 /// Move below which a step counts as rest, in units of the local mean edge.
-const REST_MOVE: f64 = 1e-3;
+pub(super) const REST_MOVE: f64 = 1e-3;
 /// Predicted decrease below which a step counts towards rest, relative to the energy.
 const REST_DECREASE: f64 = 1e-6;
 /// The same for a small move to count as rest where curvature variation is minimised: a rough spot can outweigh all the
@@ -50,6 +50,7 @@ impl SurfaceSolver {
     pub(super) fn stir(&mut self) {
         self.quiet_steps = 0;
         self.still_steps = 0;
+        self.rests = false;
     }
 
     fn search_and_accept(&mut self, positions: &mut [DVec3], report: &mut StepReport) {
