@@ -14,8 +14,6 @@ use crate::lanes::Pair;
 const WIDTHS: [usize; 4] = [1, 2, 4, 8];
 /// Price of a row of a block, beside that of its entries.
 const ROW_PRICE: usize = 4;
-/// Marks a place that is not in the factor.
-const PADDING: u32 = u32::MAX;
 
 /// Up to eight neighbouring columns.
 #[derive(Clone, Copy, Debug)]
@@ -34,8 +32,6 @@ pub(crate) struct Blocks {
     blocks: Vec<Block>,
     rows: Vec<u32>,
     values: Vec<f64>,
-    /// Per value its place in the factor.
-    sources: Vec<u32>,
 }
 
 impl Blocks {
@@ -46,7 +42,7 @@ impl Blocks {
         let below = |column: usize| &rows[starts[column] as usize + 1..starts[column + 1] as usize];
         let widths = widths(size, |column| (below(column).len(), below(column).first().copied()));
         let mut layout = Self::default();
-        let mut first = 0;
+        let (mut first, mut values) = (0, 0);
         while first < size {
             let width = widths[first];
             let shared = below(first + width - 1);
@@ -54,29 +50,32 @@ impl Blocks {
                 first: first as u32,
                 width: width as u32,
                 row: layout.rows.len() as u32,
-                value: layout.sources.len() as u32,
+                value: values as u32,
             });
-            let values = layout.sources.len();
-            layout.sources.resize(values + width * (width + 1) / 2 + width * shared.len(), PADDING);
-            for column in 0..width {
-                let from = starts[first + column] as usize..starts[first + column + 1] as usize;
-                lay(&mut layout.sources[values..], from, rows, Shape { first, width, column, shared });
-            }
+            values += width * (width + 1) / 2 + width * shared.len();
             layout.rows.extend_from_slice(shared);
             first += width;
         }
-        layout.values = vec![0.0; layout.sources.len()];
+        layout.values = vec![0.0; values];
         // They stay as they are for as long as the mesh does.
-        layout.sources.shrink_to_fit();
         layout.rows.shrink_to_fit();
         layout.blocks.shrink_to_fit();
         layout
     }
 
-    /// Takes over the numbers of a factor with this pattern.
-    pub(crate) fn refresh(&mut self, factor: &[f64]) {
-        for (value, &source) in self.values.iter_mut().zip(&self.sources) {
-            *value = if source == PADDING { 0.0 } else { factor[source as usize] };
+    /// Takes over the numbers of a factor with this pattern, the one that they were laid out for.
+    pub(crate) fn refresh(&mut self, factor: &[f64], starts: &[u32], rows: &[u32]) {
+        // Columns of a block that lack a row have zeros there.
+        self.values.fill(0.0);
+        for (index, block) in self.blocks.iter().enumerate() {
+            let end = self.blocks.get(index + 1).map_or(self.rows.len(), |next| next.row as usize);
+            let shared = &self.rows[block.row as usize..end];
+            let (first, width) = (block.first as usize, block.width as usize);
+            for column in 0..width {
+                let from = starts[first + column] as usize..starts[first + column + 1] as usize;
+                let shape = Shape { first, width, column, shared };
+                lay(&mut self.values[block.value as usize..], (&factor[from.clone()], &rows[from]), shape);
+            }
         }
         for block in &self.blocks {
             let mut diagonal = block.value as usize;
@@ -192,21 +191,21 @@ struct Shape<'a> {
 
 /// Enters where the values of a column come from; what it does not have stays padding.
 #[expect(clippy::cast_possible_truncation, reason = "the factor's entries are counted by u32")]
-fn lay(sources: &mut [u32], from: std::ops::Range<usize>, rows: &[u32], shape: Shape<'_>) {
+fn lay(values: &mut [f64], (numbers, rows): (&[f64], &[u32]), shape: Shape<'_>) {
     let Shape { first, width, column, shared } = shape;
     let below = width * (width + 1) / 2;
     let inside = (column..width).map(|row| (first + row, row * (row + 1) / 2 + column));
     let beneath =
         shared.iter().enumerate().map(|(index, &row)| (row as usize, below + index * width + column));
     // Without gaps the entries follow one another.
-    if from.len() == width - column + shared.len() {
-        from.zip(inside.chain(beneath)).for_each(|(source, (_, place))| sources[place] = source as u32);
+    if numbers.len() == width - column + shared.len() {
+        numbers.iter().zip(inside.chain(beneath)).for_each(|(number, (_, place))| values[place] = *number);
         return;
     }
-    let mut own = from.clone().zip(&rows[from]).peekable();
+    let mut own = numbers.iter().zip(rows).peekable();
     for (row, place) in inside.chain(beneath) {
-        if let Some((source, _)) = own.next_if(|&(_, &own_row)| own_row as usize == row) {
-            sources[place] = source as u32;
+        if let Some((number, _)) = own.next_if(|&(_, &own_row)| own_row as usize == row) {
+            values[place] = *number;
         }
     }
 }
@@ -281,7 +280,7 @@ mod tests {
         for (size, seed) in [(0, 1), (1, 2), (7, 3), (40, 4), (90, 5)] {
             let (starts, rows, values) = factor(size, seed);
             let mut blocks = Blocks::new(&starts, &rows);
-            blocks.refresh(&values);
+            blocks.refresh(&values, &starts, &rows);
             let mut stream = Stream::new(seed);
             let right: Vec<f64> = (0..size).map(|_| stream.unit() - 0.5).collect();
             let mut x = right.clone();
@@ -306,10 +305,15 @@ mod tests {
     #[test]
     fn every_entry_has_its_place() {
         let (starts, rows, _) = factor(60, 9);
-        let blocks = Blocks::new(&starts, &rows);
-        let mut seen: Vec<u32> = blocks.sources.iter().copied().filter(|&source| source != PADDING).collect();
-        seen.sort_unstable();
-        assert!(seen.iter().copied().eq(0..u32::try_from(rows.len()).unwrap()));
+        let mut blocks = Blocks::new(&starts, &rows);
+        let numbers: Vec<f64> = (1..=rows.len()).map(|number| number as f64).collect();
+        blocks.refresh(&numbers, &starts, &rows);
+        // Of diagonals the inverse is kept; nothing stands where the factor has nothing.
+        let number = |value: f64| if value < 1.0 { (1.0 / value).round() } else { value };
+        let mut seen: Vec<f64> =
+            blocks.values.iter().filter(|value| **value != 0.0).map(|v| number(*v)).collect();
+        seen.sort_by(f64::total_cmp);
+        assert_eq!(seen, numbers);
         assert!(blocks.blocks.iter().any(|block| block.width > 1), "dense ends make blocks");
     }
 }

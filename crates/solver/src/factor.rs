@@ -97,7 +97,9 @@ impl Cholesky {
                 faer::Spec::default(),
             )
             .map_err(|_| FactorError)?;
-        self.blocks.refresh(&factor);
+        if let SymbolicCholeskyRaw::Simplicial(columns) = self.symbolic.raw() {
+            self.blocks.refresh(&factor, columns.col_ptr(), columns.row_idx());
+        }
         Ok(())
     }
 

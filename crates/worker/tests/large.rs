@@ -21,7 +21,7 @@ fn used() -> usize {
 #[test]
 fn a_model_of_a_hundred_thousand_nodes_is_dragged_and_undone_within_320_megabytes() {
     let mut bench = Bench::with(Example::RaisedDisc);
-    bench.edit(Edit::Spacing { of: SpacingOf::Document, spacing: Some(0.0066) });
+    bench.edit(Edit::Spacing { of: SpacingOf::Document, spacing: Some(0.00715) });
     console_log!("opened: {:.1} MB", used() as f64 / MEGABYTE as f64);
     for _ in 0..6 {
         bench.step(None);
