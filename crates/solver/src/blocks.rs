@@ -190,7 +190,6 @@ struct Shape<'a> {
 }
 
 /// Enters where the values of a column come from; what it does not have stays padding.
-#[expect(clippy::cast_possible_truncation, reason = "the factor's entries are counted by u32")]
 fn lay(values: &mut [f64], (numbers, rows): (&[f64], &[u32]), shape: Shape<'_>) {
     let Shape { first, width, column, shared } = shape;
     let below = width * (width + 1) / 2;

@@ -28,6 +28,8 @@ const STILL_DAMPING: f64 = 100.0;
 const REST_RESIDUAL: f64 = 0.3;
 /// Decrease, relative to the energy, that rounding could fake: nothing is left to gain.
 const NOISE: f64 = 1e-14;
+/// Part of a plane's own size by which a fit is off for each node of it.
+const NOISE_OF_NODE: f64 = 32.0 * f64::EPSILON;
 /// Damping is raised by this after a failed search, up to the maximum, and lowered again by success.
 const DAMPING_RAISE: f64 = 10.0;
 const DAMPING_LOWER: f64 = 0.2;
@@ -38,12 +40,19 @@ impl SurfaceSolver {
     pub(super) fn advance(&mut self, positions: &mut [DVec3], report: &mut StepReport) {
         let is_hardly_damped = self.damping <= STILL_DAMPING;
         self.search_and_accept(positions, report);
-        let is_still = is_hardly_damped
-            && report.energy.is_finite()
-            && report.residual <= REST_RESIDUAL
+        let is_telling = is_hardly_damped && report.residual <= REST_RESIDUAL;
+        // Of rounding errors no direction is sure, and damping helps none.
+        let is_still = report.energy.is_finite()
+            && (is_telling || report.energy <= self.energy_of_rounding())
             && report.largest_relative_move < STILL_MOVE;
         self.still_steps = if is_still { self.still_steps + 1 } else { 0 };
         report.at_rest |= self.still_steps >= STILL_STEPS;
+    }
+
+    /// What rounding makes of a plane: each node's curvature is off by some `ε R/h²`, and `R²/h²` is about the number of nodes.
+    fn energy_of_rounding(&self) -> f64 {
+        let noise = NOISE_OF_NODE * self.unknowns.len() as f64;
+        noise * noise
     }
 
     /// What was on its way to rest has to show it anew: the shape or what it minimises was changed.
@@ -220,6 +229,24 @@ mod tests {
         let held = solver.fixed().iter().position(|fixed| *fixed).unwrap();
         solver.predict(&mut positions, &[(u32::try_from(held).unwrap(), DVec3::Z * 1e-3)]).unwrap();
         assert_eq!(solver.still_steps, 0);
+    }
+
+    #[test]
+    fn what_has_only_the_energy_of_rounding_errors_rests_though_no_direction_is_sure() {
+        for (raise, rests) in [(1e-14, true), (1e-3, false)] {
+            let (mut solver, mut positions) = workload::raised_disc(6, raise).unwrap();
+            solver.evaluate(&positions);
+            solver.slopes();
+            assert_eq!(solver.energy() <= solver.energy_of_rounding(), rests, "{}", solver.energy());
+            solver.rhs.iter_mut().for_each(|value| *value = -*value);
+            solver.alpha = solver.rhs.clone();
+            for step in 1..=STILL_STEPS {
+                solver.damping = 1e4;
+                let mut report = report(&solver, 0.9, 40);
+                solver.advance(&mut positions, &mut report);
+                assert_eq!(report.at_rest, rests && step == STILL_STEPS, "step {step}");
+            }
+        }
     }
 
     #[test]
