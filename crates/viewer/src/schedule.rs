@@ -449,13 +449,25 @@ mod tests {
     fn a_worker_that_does_not_answer_hangs() {
         let mut schedule = Schedule::default();
         assert!(!schedule.is_overdue(1e9));
-        schedule.push(Request::New);
+        schedule.push(Request::Undo);
         schedule.next(0.0);
         assert!(!schedule.is_overdue(19_000.0));
         assert!(schedule.is_overdue(21_000.0));
         schedule.wait_anew(21_000.0);
         assert!(!schedule.is_overdue(22_000.0));
-        assert_eq!(schedule.answered(&reply(true, 0.0), 0.0), Some(Answered::Opening));
+        assert_eq!(schedule.answered(&reply(true, 0.0), 0.0), Some(Answered::Act));
         assert_eq!(schedule.answered(&reply(true, 0.0), 0.0), None);
+    }
+
+    #[test]
+    fn a_worker_that_builds_everything_anew_is_given_more_time() {
+        let of = ductile_spec::SpacingOf::Document;
+        for request in [Request::New, Request::Edit(Edit::Spacing { of, spacing: Some(0.01) })] {
+            let mut schedule = Schedule::default();
+            schedule.push(request);
+            schedule.next(0.0);
+            assert!(!schedule.is_overdue(89_000.0));
+            assert!(schedule.is_overdue(91_000.0));
+        }
     }
 }
