@@ -1,7 +1,7 @@
 //! Networks of free curves whose inner vertices have any number of curves: all their loops are filled, and every seam is reported.
 
 use super::*;
-use ductile_spec::SeamFigures;
+use ductile_spec::{SeamFigures, SurfaceId};
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
@@ -157,9 +157,17 @@ fn the_patches_of_a_prism_join_smoothly_and_stay_so_in_a_drag() {
     rest(&mut modeler);
     check("prism", &fill_all(&mut modeler), 15, WALLS);
     ask(&mut modeler, Request::Grab(GrabTarget::Point(roof[0])));
-    for step in 1..=5 {
+    let mut drag = |step: u32| {
         let to = DVec3::from(at(0)) + DVec3::new(0.04, 0.02, 0.06) * f64::from(step);
         ask(&mut modeler, Request::Step(Step { drag: Some(to), iterations: 20 }));
-        check("dragged", &seams(&mut modeler).seams, 15, WALLS);
+        let refused = (1..=7).filter(|id| modeler.model().check_fill(SurfaceId(*id)).is_err()).count();
+        (seams(&mut modeler).seams, refused)
+    };
+    for step in 1..=4 {
+        let (found, refused) = drag(step);
+        check("dragged", &found, 15, WALLS);
+        assert_eq!(refused, 0);
     }
+    // Farther on the curves of the roof run straight on through the corner that is dragged: it can have no patch there.
+    assert_eq!(drag(5).1, 1);
 }
