@@ -51,8 +51,15 @@ test("a loop is shown under the pointer and filled by a click; how it is filled 
     await page.locator('#scene-list [data-subject="surface 1"]').click();
     await until(page, () => /5 sides of degree 4/.test(document.getElementById("fill-figures").textContent));
     assert.match(await textOf(page, "fill-sides"), /Side 1 · curve \dfair planes/);
+    assert.equal((await inspect(page)).netEdges, 5 * (4 + 4 + 5), "two rows of each ribbon, and legs between them");
+    await page.locator("#fill-net").selectOption({ label: "Whole" });
+    await atRest(page, ({ netEdges }) => netEdges === 5 * 210);
+    await drawn(page);
+    if (process.env.PICTURES) await page.screenshot({ path: `${process.env.PICTURES}/fill-net.png` });
+    await page.locator("#undo").click();
+    await atRest(page, ({ netEdges }) => netEdges === 65);
     await page.locator("#fill-join").selectOption({ label: "Positions" });
-    await atRest(page, ({ act }) => act === "Refill");
+    await atRest(page, (state) => JSON.parse(state.document).fills[1].style.join === "position");
     assert.equal((await documentOf(page)).fills[1].style.join, "position");
     await page.locator("#fill-interior").selectOption({ label: "Harmonic" });
     await atRest(page, (state) => JSON.parse(state.document).fills[1].style.interior === "harmonic");

@@ -86,6 +86,20 @@ pub struct FillStyle {
     /// Edges of its mesh along each side, 1 to 64; without one 16.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub resolution: Option<u8>,
+    /// Which of its control points are shown.
+    #[serde(default, skip_serializing_if = "FillNet::is_default")]
+    pub net: FillNet,
+}
+
+/// What of its control net a fill shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FillNet {
+    /// The rows along its sides: what curves and planes lead.
+    #[default]
+    Ribbons,
+    /// All control points, joined where their labels differ by one step around: the panels of the S-patch.
+    Whole,
 }
 
 /// How control points inside a fill are placed.
@@ -228,6 +242,12 @@ fn is_zero(value: &f64) -> bool {
 }
 
 impl FillStyle {
+    fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+impl FillNet {
     fn is_default(&self) -> bool {
         *self == Self::default()
     }

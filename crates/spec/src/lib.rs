@@ -42,8 +42,8 @@ pub use document::{
 pub use edit::{Edit, Leave, ObjectiveOf, SpacingOf, Through};
 pub use example::Example;
 pub use fill::{
-    CurveStretch, FILL_RESOLUTION, Fill, FillInterior, FillJoin, FillRibbon, FillSide, FillStyle, Hole,
-    LEAST_LEAN, MOST_LEAN, MOST_TURN,
+    CurveStretch, FILL_RESOLUTION, Fill, FillInterior, FillJoin, FillNet, FillRibbon, FillSide, FillStyle,
+    Hole, LEAST_LEAN, MOST_LEAN, MOST_TURN,
 };
 pub use fixed_mesh::{FixedMesh, MOST_MESH_TRIANGLES, MOST_MESH_VERTICES, MeshSource};
 pub use frame::{

@@ -58,6 +58,12 @@ impl PatchKind {
         self.join
     }
 
+    /// The labels of its control points, in their order.
+    #[must_use]
+    pub fn labels(&self) -> &Labels {
+        self.masks.labels()
+    }
+
     /// The tessellation.
     #[must_use]
     pub fn grid(&self) -> &Tessellation {

@@ -6,7 +6,7 @@ use super::page::{Page, act};
 use crate::tool::{Selection, ToolKind};
 use crate::{Highlight, Hit, Skin, number};
 use ductile_spec::{
-    CurveId, Edit, Fill, FillInterior, FillJoin, FillStyle, Hole, Request, RibbonHole, SurfaceId,
+    CurveId, Edit, Fill, FillInterior, FillJoin, FillNet, FillStyle, Hole, Request, RibbonHole, SurfaceId,
 };
 
 /// The field of the resolution in index.html.
@@ -15,6 +15,7 @@ pub(crate) const RESOLUTION: &str = "fill-resolution";
 const DEGREE: [&str; 2] = ["new-fill-degree", "fill-degree"];
 const INTERIOR: [&str; 2] = ["new-fill-interior", "fill-interior"];
 const JOIN: [&str; 2] = ["new-fill-join", "fill-join"];
+const NET: &str = "fill-net";
 /// The degrees that can be chosen.
 const DEGREES: [(u8, &str); 8] =
     [(3, "3"), (4, "4"), (5, "5"), (6, "6"), (7, "7"), (8, "8"), (9, "9"), (10, "10")];
@@ -45,6 +46,10 @@ pub(crate) fn listen() {
             act(move |page| page.change_fill(of_fill, |style| style.join = join));
         });
     }
+    menu::fill(NET, ["Ribbons", "Whole"], move |place| {
+        let net = if place == Some(1) { FillNet::Whole } else { FillNet::Ribbons };
+        act(move |page| page.change_fill(true, |style| style.net = net));
+    });
 }
 
 impl Page {
@@ -171,6 +176,7 @@ impl Page {
         dom::show(&dom::element("fill-properties"), filled.is_some());
         let Some((id, fill)) = filled else { return };
         show_style(1, fill.style);
+        menu::show(NET, Some(usize::from(fill.style.net == FillNet::Whole)), None);
         self.show_sides(id, fill);
         let text = match self.reporting.of_fill(id) {
             None => "…".to_owned(),

@@ -58,6 +58,11 @@ impl Page {
         put(&out, "camera", self.described_camera());
         put(&out, "selection", self.described_selection());
         put(&out, "hover", self.described_hover());
+        put(
+            &out,
+            "netEdges",
+            self.scene.structure.nets.iter().map(|net| number(net.edges.len())).sum::<f64>(),
+        );
         put(&out, "marked", self.described_marks());
         let committed = self.committed.as_ref();
         put(&out, "act", optional(committed.map(|c| c.act.as_str())));

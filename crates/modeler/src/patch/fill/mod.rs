@@ -7,6 +7,7 @@
 mod corners;
 mod degree;
 mod error;
+mod net;
 mod planes;
 mod side;
 #[cfg(test)]
@@ -25,7 +26,7 @@ use crate::shape::edit;
 use ductile_patch::s_patch::{Fill as Rule, Join, PatchKind, SPatch, Tessellated};
 use ductile_patch::{PlaneSample, Ribbon, RibbonLoop, curve_point, elevated, ribbons_along, ribbons_raised};
 use ductile_spec::{
-    CurveId, FILL_RESOLUTION, Fill, FillFigures, FillInterior, FillJoin, FillStyle, SurfaceId,
+    CurveId, FILL_RESOLUTION, Fill, FillFigures, FillInterior, FillJoin, FillNet, FillStyle, SurfaceId,
 };
 use glam::DVec3;
 use std::collections::BTreeSet;
@@ -74,7 +75,7 @@ pub(crate) struct Built {
     pub(crate) ribbons: RibbonLoop,
     pub(crate) patch: SPatch,
     mesh: Tessellated,
-    net: (Vec<DVec3>, Vec<[u32; 2]>),
+    net: net::Lines,
     /// The largest angle to a plane that was asked for, in radians.
     angle: f64,
 }
@@ -108,7 +109,7 @@ impl FillShape {
         self.built.as_ref().map_or(&[], |built| built.kind.triangles())
     }
 
-    /// The ribbons: what there is to see of the control points that a designer has a hand in.
+    /// What it shows of its control points.
     pub(super) fn net(&self) -> NetLines<'_> {
         self.built.as_ref().map_or((&[], &[]), |built| (&built.net.0, &built.net.1))
     }
@@ -263,29 +264,11 @@ fn built(
             mesh.positions[vertex] = curve_point(&side.fit.points, along as f64 / resolution as f64);
         }
     }
-    let net = net(&ribbons, style);
+    let net = match style.net {
+        FillNet::Ribbons => net::of_ribbons(&ribbons, style.join),
+        FillNet::Whole => net::whole(&kind, &patch),
+    };
     Ok(Built { kind, ribbons, patch, mesh, net, angle })
-}
-
-/// The rows of ribbons, and the legs between them.
-fn net(ribbons: &RibbonLoop, style: FillStyle) -> (Vec<DVec3>, Vec<[u32; 2]>) {
-    let (mut places, mut edges) = (Vec::new(), Vec::new());
-    for ribbon in ribbons.ribbons() {
-        let rows: &[&Vec<DVec3>] = match style.join {
-            FillJoin::Tangent => &[&ribbon.row0, &ribbon.row1],
-            FillJoin::Position => &[&ribbon.row0],
-        };
-        let first = u32::try_from(places.len()).unwrap_or(0);
-        let count = u32::try_from(ribbon.row0.len()).unwrap_or(0);
-        for (row, places_of_row) in (0..).zip(rows) {
-            places.extend_from_slice(places_of_row);
-            edges.extend((1..count).map(|k| [first + row * count + k - 1, first + row * count + k]));
-        }
-        if rows.len() == 2 {
-            edges.extend((0..count).map(|k| [first + k, first + count + k]));
-        }
-    }
-    (places, edges)
 }
 
 /// The shape of a fill.
@@ -381,11 +364,13 @@ fn put_in_planes(
     let known = |&(sides, degree, join, rule, resolution): &Wanted| {
         kinds.iter().find(|kind| kind.is_for(sides, degree, join, rule, resolution)).map(Arc::clone)
     };
-    let before = shape.built.as_ref().map(|built| Arc::clone(&built.kind));
+    let connectivity =
+        |shape: &FillShape| shape.built.as_ref().map(|built| (Arc::clone(&built.kind), built.net.1.len()));
+    let before = connectivity(shape);
     change(model, id, |shape| shape.rebuild(planes, known));
-    let after = self::shape(model, id).and_then(|shape| Some(Arc::clone(&shape.built.as_ref()?.kind)));
+    let after = self::shape(model, id).and_then(connectivity);
     let is_alike = match (&before, &after) {
-        (Some(before), Some(after)) => Arc::ptr_eq(before, after),
+        (Some((kind, edges)), Some((other, others))) => Arc::ptr_eq(kind, other) && edges == others,
         (before, after) => before.is_none() && after.is_none(),
     };
     if !is_alike {

@@ -454,3 +454,28 @@ fn parts_of_a_curve_that_two_stretches_share() {
     assert_eq!(shared(drawn(0, 12, 1, 4), drawn(8, 16, 3, 2)), [(1, 2), (3, 4)]);
     assert_eq!(shared(drawn(15, 10, 7, 2), drawn(0, 8, 1, 3)), [(1, 2)]);
 }
+
+#[test]
+fn the_whole_net_is_shown_when_asked_for_and_follows_a_hand() {
+    let (mut modeler, corners, curves) = pentagon();
+    let first = edit(&mut modeler, near(curves[0])).structure.unwrap();
+    // Five ribbons of degree 7: two rows of eight with legs between them.
+    let counts = |net: &ductile_spec::Net| (net.count, net.edges.len());
+    assert_eq!(counts(&first.nets[0]), (80, 5 * (7 + 7 + 8)));
+    let filled = mesh(&modeler, 1);
+    let style = FillStyle { net: FillNet::Whole, ..FillStyle::default() };
+    let whole = edit(&mut modeler, Edit::Refill { surface: SurfaceId(1), style }).structure.unwrap();
+    // 1,001 points of depth 10 and five edges around each of the 715 panels of depth 9.
+    assert_eq!(counts(&whole.nets[0]), (1001, 5 * 715));
+    assert!(mesh(&modeler, 1) == filled, "showing a net changes no shape");
+    let corner = modeler.model().document.points[&corners[0]];
+    let is_there = |modeler: &Modeler, at: DVec3| {
+        modeler.model().patches[&SurfaceId(1)].net().0.iter().any(|place| place.distance(at) < 1e-12)
+    };
+    assert!(is_there(&modeler, corner));
+    let target = DVec3::new(1.4, 0.1, 0.4);
+    ask(&mut modeler, Request::Grab(GrabTarget::Point(corners[0])));
+    ask(&mut modeler, Request::Step(Step { drag: Some(target), iterations: 20 }));
+    ask(&mut modeler, Request::Drop);
+    assert!(is_there(&modeler, target) && !is_there(&modeler, corner));
+}
