@@ -13,7 +13,7 @@ use ductile_solver::{
 };
 use ductile_spec::{CurveId, Document, Objective, PointId, Region, SurfaceId};
 use glam::DVec3;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// Jacobian of a fit from which on the mesh resolves the shape (recipe, section 7).
@@ -273,6 +273,19 @@ impl BoundSurface {
     /// Carries the controls as far as the strain limit allows. Returns whether all the way.
     pub(crate) fn carry(&mut self, motion: &Motion) -> Result<bool, SolverError> {
         motion.carry(&mut self.positions, |positions, by| self.solver.predict(positions, by))
+    }
+
+    /// The nodes that these curves and points hold.
+    pub(crate) fn held(
+        &self,
+        shape: &SurfaceShape,
+        curves: &BTreeSet<CurveId>,
+        points: &[PointId],
+    ) -> Vec<u32> {
+        let embedded = shape.embeddings.iter().filter(|embedded| curves.contains(&embedded.curve));
+        let on_curves = embedded.flat_map(|embedded| &embedded.vertices).copied();
+        let pinned = shape.pins.iter().filter(|pin| points.contains(&pin.point)).map(|pin| pin.vertex);
+        on_curves.chain(pinned).map(|v| self.node(v)).collect()
     }
 
     /// What the controls ask for that are not yet where the document has them.

@@ -109,6 +109,15 @@ impl Grab {
         if self.group.is_empty() { point.unwrap_or(DVec3::ZERO) } else { self.anchor }
     }
 
+    /// The points that follow it.
+    pub(crate) fn points(&self) -> Vec<PointId> {
+        if self.group.is_empty() {
+            vec![self.point]
+        } else {
+            self.group.iter().map(|(point, _)| *point).collect()
+        }
+    }
+
     /// A hand that shakes a surface hard enough crumples it, and a crumpled surface may stay so: its energy has other
     /// valleys. Then the shapes go back to what they were when the drag began, and are carried straight
     /// to where the hand is now. The same when the hand has brought the point home and waits there, and the shape has

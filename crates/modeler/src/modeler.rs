@@ -266,11 +266,16 @@ impl Modeler {
             Ok(grab) => {
                 let at = grab.hand(&self.model);
                 let grabbed = Grabbed { point: grab.point, at };
+                // What rests goes on resting until the hand moves, which it soon will.
+                if grab.is_new || !self.relaxer.is_at_rest() {
+                    self.relaxer.wake();
+                } else {
+                    self.relaxer.attend(&self.model, &grab.points());
+                }
                 self.grab = Some(grab);
                 self.footprints = self.displacer.footprints();
                 self.model.making = Making::Worked;
                 self.model.rests = false;
-                self.relaxer.wake();
                 Ok(Outcome { grabbed: Some(grabbed), ..Outcome::default() })
             }
             Err(error) => {
@@ -288,8 +293,14 @@ impl Modeler {
             self.pull_to(to);
         }
         if let (Some(grab), Some(to)) = (self.grab.as_mut(), step.drag) {
+            let has_moved = grab.has_moved;
             match grab.follow(&mut self.model, to) {
-                Some(moved) => self.relaxer.hand_moved(moved),
+                Some(moved) => {
+                    if !has_moved && grab.has_moved {
+                        self.relaxer.wake();
+                    }
+                    self.relaxer.hand_moved(moved);
+                }
                 None => self.relaxer.count_rescue(),
             }
         }

@@ -10,7 +10,7 @@ use crate::patch::{Led, fill};
 use crate::settle;
 use crate::shape::{CurveShape, GROWN, SurfaceShape, edit};
 use ductile_solver::Budget;
-use ductile_spec::{CurveId, Figures, SurfaceId};
+use ductile_spec::{CurveId, Figures, PointId, SurfaceId};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The mesh is improved at most every so many steps (recipe, section 6).
@@ -93,6 +93,22 @@ impl Relaxer {
         self.are_curves_quiet = false;
         self.rounds = 0;
         self.steps_since_act = 0;
+    }
+
+    /// A hand took hold of points of shapes at rest: what they lead is made ready to move.
+    pub(crate) fn attend(&mut self, model: &Model, points: &[PointId]) {
+        let curves = model.document.curves.iter();
+        let leads = curves.filter(|(_, curve)| curve.through.iter().any(|point| points.contains(point)));
+        let curves: BTreeSet<CurveId> = leads.map(|(id, _)| *id).collect();
+        for (id, bound) in &mut self.surfaces {
+            let Some(shape) = model.surfaces.get(id).filter(|shape| shape.revision == bound.revision) else {
+                continue;
+            };
+            let nodes = bound.held(shape, &curves, points);
+            if !nodes.is_empty() && bound.solver.attend(&bound.positions, &nodes).is_err() {
+                self.rescues = self.rescues.saturating_add(1);
+            }
+        }
     }
 
     /// The hand moved what it holds by a distance.

@@ -32,15 +32,17 @@ pub(crate) trait Case {
 
 /// The table. Discs of 18, 57 and 81 rings have 1,027, 9,919 and 19,927 nodes.
 #[rustfmt::skip]
-pub(crate) const GOALS: [Goal; 18] = [
+pub(crate) const GOALS: [Goal; 20] = [
     Goal { name: "a step 1k", most: 1.0, make: || Box::new(Steps::new(18)) },
     Goal { name: "a step 10k", most: 10.0, make: || Box::new(Steps::new(57)) },
     Goal { name: "a step 20k", most: 20.0, make: || Box::new(Steps::new(81)) },
     Goal { name: "b first frame 10k", most: 12.0, make: || Box::new(FirstFrame::new(57)) },
     Goal { name: "b ten bays 100k", most: 16.0, make: || Box::new(Asleep::new(10, 41)) },
     Goal { name: "b forty bays 100k", most: 16.0, make: || Box::new(Asleep::new(40, 10)) },
-    Goal { name: "b awake ten bays 100k", most: 16.0, make: || Box::new(Awake::new(10, 41)) },
-    Goal { name: "b awake forty bays 100k", most: 16.0, make: || Box::new(Awake::new(40, 10)) },
+    Goal { name: "b awake ten bays 100k", most: 16.0, make: || Box::new(Awake::new(10, 41, false)) },
+    Goal { name: "b awake forty bays 100k", most: 16.0, make: || Box::new(Awake::new(40, 10, false)) },
+    Goal { name: "b held ten bays 100k", most: 16.0, make: || Box::new(Awake::new(10, 41, true)) },
+    Goal { name: "b held forty bays 100k", most: 16.0, make: || Box::new(Awake::new(40, 10, true)) },
     Goal { name: "c to rest 1k", most: 10.0, make: || Box::new(ToRest::new(18)) },
     Goal { name: "c to rest 10k", most: 60.0, make: || Box::new(ToRest::new(57)) },
     Goal { name: "c to rest 20k", most: 120.0, make: || Box::new(ToRest::new(81)) },
@@ -188,9 +190,10 @@ impl Case for Asleep {
     }
 }
 
-/// b: the very first frame of that drag, before which nothing sleeps: the whole tube is fitted and solved for, and its far bays
-/// fall asleep at the end.
+/// b: the very first frame of that drag, before which nothing sleeps: what lies far falls asleep at its beginning, or when the hand
+/// takes hold, before it.
 struct Awake {
+    is_attended: bool,
     rested: (SurfaceSolver, Vec<DVec3>),
     now: (SurfaceSolver, Vec<DVec3>),
     moves: Vec<(u32, DVec3)>,
@@ -198,19 +201,23 @@ struct Awake {
 }
 
 impl Awake {
-    fn new(bays: u32, along: u32) -> Self {
+    fn new(bays: u32, along: u32, is_attended: bool) -> Self {
         let shape = workload::tube_of_bays(240, bays, along);
         let (mut solver, mut positions) = (with(&shape, Settings::default()), shape.positions);
         workload::relax(&mut solver, &mut positions, 60).expect("a tube can be relaxed");
         let rested = (solver, positions);
         let moves = (0..240).map(|node| (node, DVec3::X * 0.01)).collect();
-        Self { now: rested.clone(), rested, moves, awake: 0 }
+        Self { is_attended, now: rested.clone(), rested, moves, awake: 0 }
     }
 }
 
 impl Case for Awake {
     fn ready(&mut self) {
         self.now = self.rested.clone();
+        if self.is_attended {
+            let nodes: Vec<u32> = self.moves.iter().map(|(node, _)| *node).collect();
+            self.now.0.attend(&self.now.1, &nodes).expect("circles are fixed");
+        }
     }
 
     fn run(&mut self) {

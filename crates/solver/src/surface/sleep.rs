@@ -122,6 +122,27 @@ impl SurfaceSolver {
         self.sleep.as_ref().map_or(0, |sleep| sleep.count)
     }
 
+    /// A hand took hold of controls and is going to move these nodes: sets up what their first move would, so that it costs
+    /// no more than the next ones. Nothing moves.
+    ///
+    /// # Errors
+    /// [`SolverError`] when there is not one finite position per node, a node is none or not fixed, or what stays awake cannot
+    /// be set up; everything is awake then.
+    pub fn attend(&mut self, positions: &[DVec3], nodes: &[u32]) -> Result<(), SolverError> {
+        crate::error::check_positions(self.rings.len(), positions)?;
+        let still: Vec<(u32, DVec3)> = nodes.iter().map(|&node| (node, DVec3::ZERO)).collect();
+        crate::predictor::checked_moves(positions, &self.fixed, &still)?;
+        let is_asked = match &self.sleep {
+            Some(sleep) => nodes.iter().any(|&node| !sleep.can_move[node as usize]),
+            None => self.rests && self.fits.are_at(positions),
+        };
+        if is_asked {
+            self.sleep_beyond(positions, nodes)?;
+        }
+        self.refit(positions, crate::fits::Wanted::Rows);
+        self.prepare()
+    }
+
     /// Controls are about to be moved. Of a shape at rest only what they reach stays awake; of one that sleeps in parts all that
     /// they reach wakes, if a control beside a sleeping bay is among them.
     ///
@@ -142,8 +163,13 @@ impl SurfaceSolver {
             return Ok(());
         }
         let moved: Vec<u32> = moves.iter().map(|&(node, _)| node).collect();
+        self.sleep_beyond(positions, &moved)
+    }
+
+    /// Lets what these nodes do not reach sleep, or go on sleeping.
+    fn sleep_beyond(&mut self, positions: &[DVec3], nodes: &[u32]) -> Result<(), SolverError> {
         let bays = self.bays.take().unwrap_or_else(|| Bays::new(&self.rings, &self.fixed));
-        let reached = bays.within(&self.rings, &moved, REACH);
+        let reached = bays.within(&self.rings, nodes, REACH);
         let done = if self.sleep.is_some() {
             self.keep_asleep(&bays, |bay| !reached[bay], positions)
         } else if bays.count(|bay| reached[bay]) as f64 <= WORTH * self.unknowns.len() as f64 {

@@ -106,6 +106,34 @@ fn the_first_frame_of_a_drag_solves_for_what_it_reaches() {
     assert_eq!(solver.asleep(), 0);
 }
 
+/// Attended to when a hand takes hold, nodes have everything set up before they move, and move as they would have.
+#[test]
+fn what_a_hand_takes_hold_of_is_set_up_before_it_moves() {
+    let (mut solver, mut positions, circles) = tube();
+    let (mut other, mut unheeded, _) = tube();
+    let still = positions.clone();
+    solver.attend(&positions, &circles[0]).unwrap();
+    assert_eq!((solver.asleep(), &positions), (24 * 7 * 3, &still));
+    let moves: Vec<_> = circles[0].iter().map(|&node| (node, DVec3::X * 0.05)).collect();
+    for _ in 0..3 {
+        solver.predict(&mut positions, &moves).unwrap();
+        other.predict(&mut unheeded, &moves).unwrap();
+        assert_eq!(solver.asleep(), other.asleep());
+        solver.step(&mut positions, Budget::default()).unwrap();
+        other.step(&mut unheeded, Budget::default()).unwrap();
+    }
+    assert!(positions == unheeded, "the same bits");
+    // Another hand, elsewhere: what it reaches wakes, and what is awake stays so.
+    solver.attend(&positions, &circles[8]).unwrap();
+    assert_eq!(solver.asleep(), 0);
+    // What is no control is refused, and nothing happens.
+    let (mut solver, positions, circles) = tube();
+    let free = circles[0][0] + 30;
+    assert!(matches!(solver.attend(&positions, &[free]), Err(SolverError::NotFixed(_))));
+    assert!(solver.attend(&positions[1..], &circles[0]).is_err());
+    assert_eq!(solver.asleep(), 0);
+}
+
 /// The border of what sleeps moves on bay by bay; the rest goes on sleeping.
 #[test]
 fn a_border_that_stirs_wakes_the_bays_beside_it_alone() {
