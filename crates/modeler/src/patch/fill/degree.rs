@@ -6,8 +6,8 @@ use ductile_patch::s_patch::PatchKind;
 use ductile_spec::{CurveStretch, Document, Fill, FillSide};
 use std::collections::BTreeMap;
 
-/// A degree that nobody chose leaves this many control points at the most, down to the least degree: with more, points inside are found by
-/// conjugate gradients, which takes a whole frame.
+/// A degree that nobody chose leaves this many control points at the most, down to the least degree: with more, what is made once for a kind
+/// of patch takes a good part of a second.
 const EASY_POINTS: f64 = 1_800.0;
 /// The least degree: with a lower one a ribbon has no freedom to follow planes.
 const LEAST: usize = 3;
