@@ -4,7 +4,7 @@
 #[cfg(not(target_arch = "wasm32"))]
 mod native {
     use criterion::{BatchSize, Criterion};
-    use ductile_patch::s_patch::{Domain, Fill, Join, MaskCache, SPatch, Tessellation};
+    use ductile_patch::s_patch::{Domain, Fill, Join, MaskCache, PatchKind, SPatch, Tessellation};
     use ductile_patch::{Ribbon, RibbonLoop, made_compatible};
     use glam::DVec3;
 
@@ -64,7 +64,33 @@ mod native {
             });
             group.finish();
         }
+        dragged(&mut criterion);
         criterion.final_summary();
+    }
+
+    /// A whole frame of a patch that is dragged, and what is made before the first.
+    fn dragged(criterion: &mut Criterion) {
+        for (name, n, d) in [
+            ("5-sided septic", 5, 7),
+            ("5-sided, leaning", 5, 11),
+            ("8-sided cubic", 8, 3),
+            ("8-sided quintic", 8, 5),
+        ] {
+            let ring = ribbons(n, d);
+            let kind = || {
+                let kind = PatchKind::new(n, d, Join::Tangent, Fill::Biharmonic, 16);
+                kind.unwrap_or_else(|error| unreachable!("a patch of ordinary size: {error}"))
+            };
+            let own = kind();
+            let fill = || own.filling(&ring).ok().flatten();
+            let mut group = criterion.benchmark_group(format!("{name}, dragged"));
+            group.bench_function("kind, once", |bench| bench.iter(kind));
+            group.bench_function("control points", |bench| bench.iter(fill));
+            group.bench_function("control points and mesh", |bench| {
+                bench.iter(|| fill().and_then(|patch| own.evaluate(&patch)))
+            });
+            group.finish();
+        }
     }
 }
 

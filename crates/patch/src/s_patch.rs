@@ -11,6 +11,7 @@
 mod build;
 mod domain;
 mod evaluate;
+mod influence;
 mod kind;
 mod label;
 mod masks;

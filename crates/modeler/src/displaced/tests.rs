@@ -368,7 +368,8 @@ fn a_closed_surface_needs_a_pin_and_stays_there() {
     let bottom = *all.iter().min_by(|a, b| a.z.total_cmp(&b.z)).unwrap();
     assert!(bench.refuse(displace(top, DVec3::Z)).contains("closed"));
     let grab = bench.ask(Request::Grab(GrabTarget::Displace(displacing(top, 0.0))));
-    assert!(grab.refused.unwrap().reason.contains("closed"));
+    let reason = grab.refused.unwrap().reason;
+    assert!(reason.contains("closed") && reason.contains("Shift-click"), "{reason}");
     let pins = vec![Hold::Around { at: bottom, radius: 0.5 }];
     bench.edit(Edit::Blending { surface: ONE, blending: Blending { pins, ..Blending::default() } });
     bench.edit(displace(top, DVec3::Z * 0.5));

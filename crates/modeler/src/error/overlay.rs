@@ -9,7 +9,7 @@ pub(super) fn displaced(reason: &DisplacementError) -> String {
     let why = match reason {
         DisplacementError::Held(_) => "its foot is on the boundary or on a pin, which stay where they are",
         DisplacementError::NoBoundary(_) => {
-            "the surface is closed, so that all of it would move: pin a place that stays first"
+            "the surface is closed, so that all of it would move: pin a place that stays first, with a Shift-click on the page"
         }
         DisplacementError::Touching(..) => "there is a foot at this place already; change that one",
         DisplacementError::BadPosition(_) => "there is no surface for its foot to stand on",

@@ -26,6 +26,8 @@ const REACH_WEIGHT: f64 = 1e-6;
 const HEAVIER: [f64; 3] = [1e-4, 1e-2, 1.0];
 /// Up to this angle to its planes, in radians, a ribbon follows them: 0.5°.
 const FOLLOWS: f64 = 0.0087;
+/// The least degree of ribbons that have points enough to follow planes.
+const FREE: usize = 7;
 /// What the default weighs beside the planes.
 const DEFAULT_WEIGHT: f64 = 1e-9;
 
@@ -43,6 +45,8 @@ pub struct PlaneSample {
     pub turn: f64,
     /// How far the ribbon is to reach across the side, 1 as far as it does where nothing is turned and reaches 1.
     pub reach: f64,
+    /// What it weighs beside others, 1 as a rule.
+    pub weight: f64,
     /// Whether the plane, before it is turned, is the one that the ribbon has by default.
     pub is_own: bool,
 }
@@ -91,13 +95,21 @@ pub fn ribbons_raised(
     }
     let mut ribbons: Vec<Ribbon> = (0..sides).map(|side| by_default(&rows, side)).collect();
     let given = planes.iter().filter(|plane| !plane.is_own);
-    let fair: Vec<PlaneSample> =
-        given.map(|plane| PlaneSample::new(plane.side, plane.u, plane.normal)).collect();
-    ribbons = followed(ribbons, &fair);
-    for ribbon in &mut ribbons {
-        *ribbon = (d..least).fold(ribbon.clone(), |ribbon, _| ribbon.elevated());
+    let fair: Vec<PlaneSample> = given.map(|plane| PlaneSample { turn: 0.0, reach: 1.0, ..*plane }).collect();
+    let raise = |ribbons: &mut Vec<Ribbon>| {
+        for ribbon in ribbons {
+            *ribbon = (ribbon.degree()..least).fold(ribbon.clone(), |ribbon, _| ribbon.elevated());
+        }
+    };
+    let leans = planes != fair;
+    if !leans && d < FREE {
+        // Twist points that gave way to planes would be no default to start from.
+        raise(&mut ribbons);
     }
-    if planes != fair || d < least {
+    ribbons = followed(ribbons, &fair);
+    let is_raised = ribbons[0].degree() >= least;
+    raise(&mut ribbons);
+    if leans || !is_raised {
         // Turned and stretched beside what is fair; then back into the planes, whose part in this was spoiled by the lengths.
         meet(&mut ribbons, planes, REACH_WEIGHT);
         meet(&mut ribbons, planes, 0.0);
@@ -146,7 +158,7 @@ impl PlaneSample {
     /// A plane that is not turned, and a ribbon that reaches as far as by default.
     #[must_use]
     pub fn new(side: usize, u: f64, normal: DVec3) -> Self {
-        Self { side, u, normal, turn: 0.0, reach: 1.0, is_own: false }
+        Self { side, u, normal, turn: 0.0, reach: 1.0, weight: 1.0, is_own: false }
     }
 
     /// The normal, turned about the unit tangent of the side.
@@ -166,6 +178,7 @@ impl PlaneSample {
             && self.normal.try_normalize().is_some()
             && self.turn.is_finite()
             && self.reach.is_finite()
+            && self.weight.is_finite()
     }
 }
 
@@ -241,7 +254,7 @@ fn meet(ribbons: &mut [Ribbon], planes: &[PlaneSample], reach_weight: f64) {
         let Some(normal) = plane.turned(along).try_normalize() else { continue };
         let within = normal.cross(along).normalize_or_zero();
         let reach = way * across.length();
-        for (direction, value, share) in [(normal, 0.0, 1.0), (within, reach, reach_weight)] {
+        for (direction, value, share) in [(normal, 0.0, plane.weight), (within, reach, reach_weight)] {
             // Σ b_j (row1_j - row0_j) · direction = value, with what is fixed on the right.
             let mut known = value;
             let mut free: Vec<(usize, f64)> = Vec::new();

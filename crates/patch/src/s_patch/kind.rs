@@ -33,7 +33,8 @@ impl PatchKind {
         fill: Fill,
         resolution: usize,
     ) -> Result<Self, KindError> {
-        let masks = Masks::new(sides, join.depth(degree), join, fill)?;
+        let mut masks = Masks::new(sides, join.depth(degree), join, fill)?;
+        masks.weigh().map_err(BuildError::from)?;
         let grid = Tessellation::new(sides, join.depth(degree), resolution)?;
         let triangles = grid.triangles().into_iter().map(|corners| corners.map(|corner| corner as u32));
         Ok(Self { triangles: triangles.collect(), masks, grid, degree, join, fill })

@@ -3,9 +3,11 @@
 //!
 //! Both systems are symmetric and positive definite and depend on nothing but the kind of the patch. Where their factor
 //! is small it is made once and kept; above that the factor fills up (the graph has `n - 1` dimensions), and conjugate
-//! gradients with two sweeps over the neighbours for each step take less time and no room.
+//! gradients with two sweeps over the neighbours for each step take less time and no room. What is filled again and again gets
+//! weights by them ([`Influence`]).
 
 use super::build::Join;
+use super::influence::Influence;
 use super::label::{LabelKind, Labels};
 use ductile_solver::SymmetricFactor;
 use glam::DVec3;
@@ -32,7 +34,7 @@ pub struct MaskError {
 }
 
 /// Above this many unknowns the system is solved step by step.
-const MOST_FACTORED: usize = 1500;
+const MOST_FACTORED: usize = 1200;
 /// Where steps may end, as a share of the right-hand side: what rounding leaves.
 const RESIDUAL: f64 = 1e-14;
 /// What the residual must come down to at the least.
@@ -91,6 +93,7 @@ pub(super) struct Masks {
     starts: Vec<u32>,
     neighbours: Vec<u32>,
     factor: Option<SymmetricFactor>,
+    influence: Option<Influence>,
 }
 
 impl Masks {
@@ -110,7 +113,7 @@ impl Masks {
             labels.for_each_shift(rank, &mut label, |to, _| neighbours.push(to as u32));
             starts.push(neighbours.len() as u32);
         }
-        let mut masks = Self { labels, join, fill, free, starts, neighbours, factor: None };
+        let mut masks = Self { labels, join, fill, free, starts, neighbours, factor: None, influence: None };
         if masks.free.len() <= MOST_FACTORED {
             let factor = SymmetricFactor::new(masks.free.len(), &masks.entries());
             masks.factor = Some(factor.map_err(|_| MaskError { sides, depth })?);
@@ -118,8 +121,30 @@ impl Masks {
         Ok(masks)
     }
 
+    /// Makes many fills quick, where there is no factor: finds out how each point inside hangs on those around it.
+    pub(super) fn weigh(&mut self) -> Result<(), MaskError> {
+        if self.factor.is_some() || self.free.is_empty() {
+            return Ok(());
+        }
+        let failed = core::cell::Cell::new(false);
+        let solve = |points: &mut [DVec3]| {
+            failed.set(self.fill_by(None, points).is_err());
+            (!failed.get()).then_some(())
+        };
+        self.influence = Influence::new(self, solve);
+        if failed.get() {
+            return Err(MaskError { sides: self.labels.sides(), depth: self.labels.depth() });
+        }
+        Ok(())
+    }
+
     pub(super) fn labels(&self) -> &Labels {
         &self.labels
+    }
+
+    /// The numbers of the points that are placed.
+    pub(super) fn free(&self) -> &[u32] {
+        &self.free
     }
 
     fn around(&self, rank: usize) -> &[u32] {
@@ -194,6 +219,15 @@ impl Masks {
         // Seen from one of the points, so that a patch far from the origin loses no digits.
         let origin = points[0];
         points.iter_mut().for_each(|point| *point -= origin);
+        let failed = MaskError { sides: self.labels.sides(), depth: self.labels.depth() };
+        if let (None, Some(influence)) = (&factor, &self.influence) {
+            influence.fill(points);
+            if self.free.iter().any(|&rank| !points[rank as usize].is_finite()) {
+                return Err(failed);
+            }
+            points.iter_mut().for_each(|point| *point += origin);
+            return Ok(());
+        }
         self.free.iter().for_each(|&rank| points[rank as usize] = DVec3::ZERO);
         let mut right = vec![DVec3::ZERO; self.free.len()];
         self.apply(points, &mut Vec::new(), &mut right);
@@ -202,7 +236,6 @@ impl Masks {
             Some(factor) => solve_factored(factor, &right),
             None => self.iterate(&right),
         };
-        let failed = MaskError { sides: self.labels.sides(), depth: self.labels.depth() };
         let solution = solution.filter(|found| found.iter().all(|point| point.is_finite())).ok_or(failed)?;
         for (&rank, value) in self.free.iter().zip(solution) {
             points[rank as usize] = value;
@@ -267,5 +300,9 @@ impl Masks {
     /// Makes the next fill go step by step.
     pub(super) fn forget_factor(&mut self) {
         self.factor = None;
+    }
+
+    pub(super) fn is_weighed(&self) -> bool {
+        self.influence.is_some()
     }
 }

@@ -34,6 +34,9 @@ const MOST_VERTICES: usize = 2_000_000;
 /// Numbers of the basis that are kept (192 MB); beyond, they are worked out again whenever they are wanted.
 const MOST_KEPT: usize = 8_000_000;
 
+/// Sums that are run side by side.
+const LANES: usize = 8;
+
 /// A grid of triangles over the domain of patches with a number of sides and a depth.
 #[derive(Clone, Debug)]
 pub struct Tessellation {
@@ -156,27 +159,42 @@ impl Tessellation {
         }
         let zeros = vec![DVec3::ZERO; self.vertex_count()];
         let mut found = Tessellated { positions: zeros.clone(), normals: zeros };
+        let vertices: Vec<Vec<(usize, DVec2)>> =
+            (0..self.labels.sides()).map(|sector| self.sector(sector).collect()).collect();
         let (mut turned, mut own_row) = (patch.points().to_vec(), Vec::new());
-        let wide = self.labels.len();
-        for sector in 0..self.labels.sides() {
-            if sector > 0 {
-                self.gather(patch.points(), sector, &mut turned);
+        let mut lanes = vec![[0.0; LANES]; self.labels.len()];
+        let (wide, all) = (self.labels.len(), 3 * self.labels.sides());
+        let mut slopes = vec![[DVec3::ZERO; 2]; self.vertex_count()];
+        // Rows are many: each is read once for as many axes of sectors as there are lanes.
+        for first in (0..all).step_by(LANES) {
+            let block = first..(first + LANES).min(all);
+            for (lane, of) in block.clone().enumerate() {
+                if lane == 0 || of % 3 == 0 {
+                    self.gather(patch.points(), of / 3, &mut turned);
+                }
+                lanes.iter_mut().zip(&turned).for_each(|(values, point)| values[lane] = point[of % 3]);
             }
-            // The centre is in the row of the first sector only.
-            let rows = self.sector(0).skip(usize::from(sector > 0)).enumerate();
-            for ((at, (_, place)), (vertex, _)) in rows.zip(self.sector(sector)) {
-                let at = at + usize::from(sector > 0);
+            for (at, (_, place)) in vertices[0].iter().enumerate() {
                 let row = if self.rows.is_empty() {
                     own_row.clear();
-                    append_row(self, place, &mut own_row);
+                    append_row(self, *place, &mut own_row);
                     &own_row
                 } else {
                     &self.rows[at * wide..(at + 1) * wide]
                 };
-                let [point, dx, dy] = weighed(&turned, row);
-                found.positions[vertex] = point;
-                found.normals[vertex] = unit_normal(dx, dy).unwrap_or_default();
+                let [point, dx, dy] = weighed(&lanes, row);
+                for (lane, of) in block.clone().enumerate() {
+                    // The centre is in the row of the first sector only.
+                    let own = if of < 3 { Some(at) } else { at.checked_sub(1) };
+                    let Some((vertex, _)) = own.and_then(|own| vertices[of / 3].get(own)) else { continue };
+                    found.positions[*vertex][of % 3] = point[lane];
+                    slopes[*vertex][0][of % 3] = dx[lane];
+                    slopes[*vertex][1][of % 3] = dy[lane];
+                }
             }
+        }
+        for (normal, [dx, dy]) in found.normals.iter_mut().zip(slopes) {
+            *normal = unit_normal(dx, dy).unwrap_or_default();
         }
         Some(found)
     }
@@ -201,12 +219,14 @@ fn append_row(grid: &Tessellation, place: DVec2, rows: &mut Vec<[f64; 3]>) {
     for_each_basis(&grid.domain, grid.labels.depth(), place, put);
 }
 
-/// The point and its two derivatives.
-fn weighed(points: &[DVec3], row: &[[f64; 3]]) -> [DVec3; 3] {
-    let mut sums = [DVec3::ZERO; 3];
+/// The point and its two derivatives, in every lane.
+fn weighed(points: &[[f64; LANES]], row: &[[f64; 3]]) -> [[f64; LANES]; 3] {
+    let mut sums = [[0.0; LANES]; 3];
     for (point, weights) in points.iter().zip(row) {
         for (sum, weight) in sums.iter_mut().zip(weights) {
-            *sum += *point * *weight;
+            for (sum, value) in sum.iter_mut().zip(point) {
+                *sum += value * weight;
+            }
         }
     }
     sums

@@ -1,13 +1,13 @@
 //! Of which degree the Bézier curves along the sides of a fill are. It hangs on the document alone, not on where anything is, so that
 //! nothing jumps in a drag.
 
-use super::{join, planes};
+use super::{join, precedence};
 use ductile_patch::s_patch::PatchKind;
-use ductile_spec::{CurveStretch, Document, Fill, FillSide, SurfaceId};
+use ductile_spec::{CurveStretch, Document, Fill, FillSide};
 use std::collections::BTreeMap;
 
-/// A degree that nobody chose leaves this many control points at the most, down to the least degree: with more, points inside are found by
-/// conjugate gradients, which takes a whole frame.
+/// A degree that nobody chose leaves this many control points at the most, down to the least degree: with more, what is made once for a kind
+/// of patch takes a good part of a second.
 const EASY_POINTS: f64 = 1_800.0;
 /// The least degree: with a lower one a ribbon has no freedom to follow planes.
 const LEAST: usize = 3;
@@ -36,11 +36,22 @@ const LEANING: usize = 4;
 /// As many of them are taken as leave this many control points at the most, but one at least above degree 4.
 const LEANING_POINTS: f64 = 3_100.0;
 
-/// The degree of the ribbons of a fill: that of its curves, and more if they lean.
-pub(super) fn of_ribbons(document: &Document, id: SurfaceId, fill: &Fill) -> usize {
+/// Ribbons of a lower degree than this get a higher one than their curves, if that is light, where they have planes to follow: at degree 3
+/// their only free points are the twist points, which two sides share. Below the other one they get it as far as they have this many
+/// control points at the most: degree 5 with eight sides.
+const FREE: usize = 7;
+const BARE: usize = 5;
+const BARE_POINTS: f64 = 6_500.0;
+
+/// The degree of the ribbons of a fill: that of its curves, and more if they lean, or are bound to planes that they could not follow.
+pub(super) fn of_ribbons(document: &Document, fill: &Fill, leans: bool, is_bound: bool) -> usize {
     let own = of(document, fill);
-    if !planes::leans(document, id, fill) {
-        return own;
+    if !leans {
+        let points = if own < BARE { BARE_POINTS } else { EASY_POINTS };
+        let is_light =
+            |degree: &usize| PatchKind::control_points(fill.sides.len(), *degree, join(fill.style)) <= points;
+        let most = if is_bound && own < FREE { own + precedence::FREE } else { own };
+        return (own..=most).rev().find(is_light).unwrap_or(own);
     }
     let is_light = |degree: &usize| {
         PatchKind::control_points(fill.sides.len(), *degree, join(fill.style)) <= LEANING_POINTS

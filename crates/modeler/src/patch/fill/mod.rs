@@ -9,6 +9,7 @@ mod degree;
 mod error;
 mod net;
 mod planes;
+mod precedence;
 mod side;
 #[cfg(test)]
 mod tests;
@@ -18,7 +19,8 @@ pub(crate) use corners::{corners, held, joined};
 pub use error::FillError;
 pub(crate) use side::{Drawn, Side, places, tangents};
 
-use self::planes::Given;
+use self::planes::{Given, side_on};
+use self::precedence::Precedence;
 use super::{NetLines, PatchShape};
 use crate::model::Model;
 use crate::relax::Relaxer;
@@ -26,7 +28,8 @@ use crate::shape::edit;
 use ductile_patch::s_patch::{Fill as Rule, Join, PatchKind, SPatch, Tessellated};
 use ductile_patch::{PlaneSample, Ribbon, RibbonLoop, curve_point, elevated, ribbons_along, ribbons_raised};
 use ductile_spec::{
-    CurveId, FILL_RESOLUTION, Fill, FillFigures, FillInterior, FillJoin, FillNet, FillStyle, SurfaceId,
+    CurveId, FILL_RESOLUTION, Fill, FillFigures, FillInterior, FillJoin, FillNet, FillSide, FillStyle,
+    SurfaceId,
 };
 use glam::DVec3;
 use std::collections::BTreeSet;
@@ -293,11 +296,12 @@ pub(crate) fn follow(model: &mut Model, relaxer: Option<&Relaxer>) {
         return;
     }
     let document = Arc::clone(&model.document);
+    let precedence = Precedence::new(&document);
     let (degrees, corner_planes) = (degree::of_stretches(&document), side::planes(model, relaxer));
     let mut is_new: BTreeSet<SurfaceId> = BTreeSet::new();
     for (id, fill) in &document.fills {
         let Some(shape) = shape(model, *id) else { continue };
-        let (own, of_ribbons) = (degree::of(&document, fill), degree::of_ribbons(&document, *id, fill));
+        let (own, of_ribbons) = (degree::of(&document, fill), precedence.degree(*id));
         let drawn = side::all_drawn(model, &corner_planes, fill, |stretch| {
             degrees.get(stretch).copied().unwrap_or(own)
         });
@@ -319,23 +323,24 @@ pub(crate) fn follow(model: &mut Model, relaxer: Option<&Relaxer>) {
             Err(_) => {}
         }
     }
-    let twists = twist::Twists::new(model);
+    let twists = twist::Twists::new(model, relaxer, &precedence);
     let mut done: BTreeSet<SurfaceId> = BTreeSet::new();
-    let waits = |fill: &Fill, done: &BTreeSet<SurfaceId>| {
-        let mut on = fill.sides.iter().filter_map(|side| side.planes);
-        on.any(|on| document.fills.contains_key(&on) && !done.contains(&on))
+    let waits = |id: SurfaceId, fill: &Fill, done: &BTreeSet<SurfaceId>| {
+        let on = |(at, side): (usize, &FillSide)| side.planes.or_else(|| precedence.first(id, at));
+        let mut on = fill.sides.iter().enumerate().filter_map(on);
+        on.any(|on| on != id && document.fills.contains_key(&on) && !done.contains(&on))
     };
     // The document is valid, so there is always one that waits for none; that this ends does not hang on it.
     for _ in 0..document.fills.len() {
         let ready: Vec<SurfaceId> = document
             .fills
             .iter()
-            .filter(|(id, fill)| !done.contains(id) && !waits(fill, &done))
+            .filter(|(id, fill)| !done.contains(id) && !waits(**id, fill, &done))
             .map(|(id, _)| *id)
             .collect();
         for id in ready {
             done.insert(id);
-            put_in_planes(model, relaxer, &twists, (id, is_new.contains(&id)));
+            put_in_planes(model, relaxer, (&precedence, &twists), (id, is_new.contains(&id)));
         }
         if done.len() == document.fills.len() {
             break;
@@ -347,10 +352,10 @@ pub(crate) fn follow(model: &mut Model, relaxer: Option<&Relaxer>) {
 fn put_in_planes(
     model: &mut Model,
     relaxer: Option<&Relaxer>,
-    twists: &twist::Twists,
+    joins: (&Precedence, &twist::Twists),
     (id, is_new): (SurfaceId, bool),
 ) {
-    let planes = planes::of(model, relaxer, twists, id);
+    let planes = planes::of(model, relaxer, joins, id);
     let Some(shape) = shape(model, id) else { return };
     if shape.is_behind || shape.base.is_none() || !is_new && planes == shape.planes {
         return;

@@ -4,6 +4,7 @@
 //! An agreed plane lies half way between what the two ribbons would have by themselves. At a corner all curves of fills there
 //! should lie in one plane (see `modeler/network`), and the agreed planes lead up to that one, turning as `twist` says.
 
+use super::precedence::Precedence;
 use super::twist::Twists;
 use super::{Drawn, FillShape, Side, shape};
 use crate::bank;
@@ -17,6 +18,10 @@ use glam::DVec3;
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 
+/// How far from its ends a ribbon that goes first is given planes: there they say how it turns, to this part of that.
+const END: f64 = 1e-4;
+/// Step in the parameter over which the slope of planes is taken.
+const STEP: f64 = 1e-3;
 /// Places along a side at which planes are asked for.
 const PLACES: usize = 32;
 /// Two ribbons whose sum of normals is shorter than this fold back on one another by more than 150°: they agree on nothing.
@@ -91,7 +96,12 @@ impl Given {
 }
 
 /// The planes of all sides of a fill as things are now.
-pub(super) fn of(model: &Model, relaxer: Option<&Relaxer>, twists: &Twists, id: SurfaceId) -> Vec<Given> {
+pub(super) fn of(
+    model: &Model,
+    relaxer: Option<&Relaxer>,
+    (precedence, twists): (&Precedence, &Twists),
+    id: SurfaceId,
+) -> Vec<Given> {
     let (Some(fill), Some(own)) = (model.document.fills.get(&id), shape(model, id)) else {
         return Vec::new();
     };
@@ -100,15 +110,24 @@ pub(super) fn of(model: &Model, relaxer: Option<&Relaxer>, twists: &Twists, id: 
     }
     let mut planes = Vec::new();
     for (at, (side, drawn)) in fill.sides.iter().zip(&own.sides).enumerate() {
-        let normals = match side.planes {
-            Some(beside) if model.surfaces.contains_key(&beside) => of_fair(model, relaxer, beside, drawn),
+        let first = precedence.first(id, at);
+        let is_first = first == Some(id);
+        let normals = match side.planes.or(first.filter(|_| !is_first)) {
             Some(beside) if model.document.fills.contains_key(&beside) => of_fill(model, beside, drawn),
-            Some(beside) => of_rim(model, beside, drawn),
-            None => agreed(model, twists, id, at, drawn),
+            Some(beside) => of_others(model, relaxer, beside, drawn),
+            None => match model.document.partner(id, side) {
+                None => followed(own, twists, at, drawn),
+                Some(_) if is_first => agreed(model, twists, (id, at, drawn), false, [END, 1.0 - END]),
+                Some((other, ..)) => {
+                    let is_carried = precedence.carries([id, other], drawn.fit.points.len() - 1);
+                    agreed(model, twists, (id, at, drawn), is_carried, places())
+                }
+            },
         };
+        let is_end = |u: f64| u == END || u == 1.0 - END;
         let lean = Lean { turn: model.document.turn_along(id, side), strength: side.strength };
         // What leans does so beside the planes that it has by itself.
-        let is_alone = side.planes.is_none() && normals.is_empty();
+        let is_alone = side.planes.is_none() && normals.iter().all(|(u, _)| is_end(*u));
         let is_own = is_alone && lean.is_some();
         let normals = if is_own { fair(own, at) } else { normals };
         let on_side = |(u, normal): (f64, DVec3)| {
@@ -117,11 +136,28 @@ pub(super) fn of(model: &Model, relaxer: Option<&Relaxer>, twists: &Twists, id: 
             let within = normal - along * along.dot(normal);
             let u = drawn.parameter(u);
             let (turn, reach) = lean.at(u);
-            Given { sample: PlaneSample { side: at, u, normal: within, turn, reach, is_own }, normal }
+            let weight = if is_end(u) { 1.0 / (END * END) } else { 1.0 };
+            // What is agreed on is only what is across; of a surface, what the curve misses of its direction counts.
+            let normal = if side.planes.is_some() { normal } else { within };
+            Given { sample: PlaneSample { side: at, u, normal: within, turn, reach, weight, is_own }, normal }
         };
         planes.extend(normals.into_iter().map(on_side));
     }
     planes
+}
+
+/// The normals of a surface that is no fill along a side, by the parameter in the sense of the control curve.
+pub(super) fn of_others(
+    model: &Model,
+    relaxer: Option<&Relaxer>,
+    beside: SurfaceId,
+    side: &Side,
+) -> Vec<(f64, DVec3)> {
+    if model.surfaces.contains_key(&beside) {
+        of_fair(model, relaxer, beside, side)
+    } else {
+        of_rim(model, beside, side)
+    }
 }
 
 fn places() -> impl Iterator<Item = f64> {
@@ -258,17 +294,62 @@ pub(super) fn leaving(points: &[DVec3], is_last: bool) -> DVec3 {
 }
 
 /// The normals that two fills agree on along a stretch; at its ends they turn as the corners ask for.
-fn agreed(model: &Model, twists: &Twists, id: SurfaceId, at: usize, side: &Side) -> Vec<(f64, DVec3)> {
+fn agreed(
+    model: &Model,
+    twists: &Twists,
+    (id, at, side): (SurfaceId, usize, &Side),
+    is_carried: bool,
+    places: impl IntoIterator<Item = f64>,
+) -> Vec<(f64, DVec3)> {
     let Some(agreement) = agreement(model, id, at, side) else { return Vec::new() };
+    let points = &side.fit.points;
     let slope = |is_last: bool| {
         let end = agreement.bent(if is_last { 1.0 } else { 0.0 })?;
-        Some(twists.slope((side.drawn.stretch, is_last), end, leaving(&side.fit.points, is_last)))
+        Some(twists.slope((side.drawn.stretch, is_last), end, leaving(points, is_last)))
     };
     let [first, last] = [false, true].map(|is_last| slope(is_last).unwrap_or_default());
     // Of slope 1 at its end, and gone with slope zero at the other one.
     let turn = |t: f64| t * (1.0 - t) * (1.0 - t);
-    let normal = |u: f64| Some((u, agreement.bent(u)? + first * turn(u) + last * turn(1.0 - u)));
-    places().filter_map(normal).collect()
+    let normal = |u: f64| Some(agreement.bent(u)? + first * turn(u) + last * turn(1.0 - u));
+    let carried = if is_carried { carried(points, normal) } else { None };
+    let normal = |u: f64| {
+        let Some(across) = carried else { return normal(u) };
+        Some(curve_derivative(points, u).normalize_or_zero().cross(hermite(across, u)))
+    };
+    places.into_iter().filter_map(|u| Some((u, normal(u)?))).collect()
+}
+
+/// The normals near the ends of a side that others follow, turned as the corners there ask for.
+fn followed(own: &FillShape, twists: &Twists, at: usize, side: &Side) -> Vec<(f64, DVec3)> {
+    let Some(ribbon) = own.base.as_ref().and_then(|base| base.ribbons().get(at)) else { return Vec::new() };
+    let end = |is_last: bool| {
+        let end = (side.drawn.stretch, is_last);
+        let u = if is_last { 1.0 - END } else { END };
+        let normal = ribbon.normal(side.parameter(u)).filter(|_| twists.knows(end))?;
+        Some((u, normal + twists.slope(end, normal, leaving(&side.fit.points, is_last)) * END))
+    };
+    [false, true].into_iter().filter_map(end).collect()
+}
+
+/// What leads across a curve in planes with these normals, at both ends, and how it turns there: with it agreed planes are polynomials.
+fn carried(points: &[DVec3], normal: impl Fn(f64) -> Option<DVec3>) -> Option<[DVec3; 4]> {
+    let across = |u: f64| {
+        let (normal, along) = (normal(u)?, curve_derivative(points, u).normalize_or_zero());
+        normal.cross(along).try_normalize()
+    };
+    let end = |at: fn(f64) -> f64| {
+        let [here, next, far] = [across(at(0.0))?, across(at(STEP))?, across(at(2.0 * STEP))?];
+        Some([here, (next * 4.0 - here * 3.0 - far) / (2.0 * STEP)])
+    };
+    let ([first, leaves], [last, arrives]) = (end(|t| t)?, end(|t| 1.0 - t)?);
+    Some([first, leaves, last, arrives])
+}
+
+/// The cubic with these values and inward slopes at its ends.
+fn hermite([first, leaves, last, arrives]: [DVec3; 4], u: f64) -> DVec3 {
+    let half =
+        |value: DVec3, slope: DVec3, t: f64| (value * (1.0 + 2.0 * t) + slope * t) * ((1.0 - t) * (1.0 - t));
+    half(first, leaves, u) + half(last, arrives, 1.0 - u)
 }
 
 /// The normal of the plane in which all curves of fills at a corner lie, if they nearly do.

@@ -1,7 +1,9 @@
 //! Fills in a model: loops of free curves, holes in fair surfaces, patches beside patches.
 
 mod corners;
+mod degrees;
 mod lean;
+mod mixed;
 mod valence;
 
 use super::*;

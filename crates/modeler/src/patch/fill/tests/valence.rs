@@ -28,7 +28,7 @@ fn check(name: &str, found: &[SeamFigures], count: usize, most: f64) {
 }
 
 /// Curves from a vertex in the middle of a dome to a rim of as many corners: as many patches with three sides.
-fn dome(spokes: u32) -> Modeler {
+pub(super) fn dome(spokes: u32) -> Modeler {
     let mut modeler = Modeler::new();
     let rim = ring(&mut modeler, spokes, 1.0, 0.05);
     let hub = point(&mut modeler, [0.05, -0.03, 0.4]);
