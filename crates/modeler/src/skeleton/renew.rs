@@ -4,7 +4,7 @@
 //! another, while the mesh shown follows by flips. What such a skeleton opens to is another shape. So when a move has ended, the skin
 //! that an opening would begin with is compared with the one over what the mesh shown dehydrates to, both at the places where the
 //! controls are in that mesh: it winds if it is larger by a part, and then the other skeleton is what the document keeps.
-//! Plain drags, which leave both skins alike, do not change it, nor does any on a disc without inner controls, in which nothing can slide.
+//! Plain drags, which leave both skins alike, do not change it, nor do twists of surfaces without handles, which are to leave no trace when they are undone.
 
 use super::skeleton_of;
 use crate::model::{Model, NODE_BUDGET};
@@ -56,13 +56,10 @@ fn tighter(before: &Document, model: &Model, id: SurfaceId) -> Option<Skeleton> 
     winds.then_some(fresh)
 }
 
-/// Whether controls can be led round anything in a surface: not in a disc whose controls all lie on its rim.
+/// Whether there is anything to be led round that a twist back does not undo: a surface without handles or crosscaps is only wound up, and
+/// what is unwound again must leave no trace.
 fn can_slide(shape: &SurfaceShape) -> bool {
-    let kind = summary(&shape.mesh);
-    let is_inner = |v: &VertexId| !shape.mesh.is_boundary_vertex(*v);
-    (kind.euler, kind.boundaries) != (1, 1)
-        || !shape.pins.is_empty()
-        || shape.embeddings.iter().any(|embedded| embedded.vertices.iter().any(is_inner))
+    summary(&shape.mesh).genus > 0
 }
 
 /// Where the controls are in a mesh, which may not have followed them yet.
