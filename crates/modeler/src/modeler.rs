@@ -17,6 +17,7 @@ use crate::pull::Pull;
 use crate::relax::Relaxer;
 use crate::seams;
 use crate::settle::Settling;
+use crate::skeleton::renew;
 use ductile_mesh::Mesh;
 use ductile_mesh::io::obj;
 use ductile_spec::{
@@ -142,8 +143,9 @@ impl Modeler {
         match request {
             Request::OpenText { text } => self.open("Open", from_text(&text)?),
             Request::OpenLink { link } => self.open("Open link", from_fragment(&link)?),
-            Request::Import { format, bytes, into } => self
-                .whole("Import", |modeler, _| operation::import(&mut modeler.model, (format, &bytes), into)),
+            Request::Import { format, bytes, into } => self.whole("Import", |modeler, _| {
+                operation::import(&mut modeler.model, (format, &bytes), into).map(|()| false)
+            }),
             Request::OpenExample(kind) => self.open(kind.title(), example(kind)),
             Request::New => self.open("New", Document::default()),
             Request::Resume(resume) => self.resume(&resume),
@@ -222,24 +224,29 @@ impl Modeler {
     }
 
     fn edit(&mut self, edit: &Edit) -> Result<Outcome, ModelError> {
-        self.whole(edit.label(), |modeler, before| modeler.act(edit, before))
+        self.whole(edit.label(), |modeler, before| {
+            modeler.act(edit, before)?;
+            let is_move = matches!(edit, Edit::Move { .. } | Edit::Shift { .. });
+            Ok(is_move && renew(&before.document, &mut modeler.model))
+        })
     }
 
-    /// Does something whole, as a step of undo, or leaves the model as it was.
+    /// Does something whole, as a step of undo, or leaves the model as it was. What is done tells whether skeletons were taken anew though it
+    /// only moved controls.
     fn whole(
         &mut self,
         name: &str,
-        act: impl FnOnce(&mut Self, &Model) -> Result<(), ModelError>,
+        act: impl FnOnce(&mut Self, &Model) -> Result<bool, ModelError>,
     ) -> Result<Outcome, ModelError> {
         if self.is_holding() {
             return Err(ModelError::Dragging);
         }
         let before = self.model.clone();
         match act(self, &before) {
-            Ok(()) => {
+            Ok(is_renewed) => {
                 // What lies over the shapes gives them no reason to move.
                 if !displacing::is_over_shapes(&before.document, &self.model.document) {
-                    self.model.making = settling::worked(&before, &self.model);
+                    self.model.making = settling::worked(&before, &self.model, is_renewed);
                     self.model.rests = false;
                     self.relaxer.wake();
                 }
@@ -342,7 +349,8 @@ impl Modeler {
                     self.relaxer.count_rescue();
                 }
                 self.carry_feet(&footprints)?;
-                self.model.making = settling::worked(&grab.before, &self.model);
+                let is_renewed = renew(&grab.before.document, &mut self.model);
+                self.model.making = settling::worked(&grab.before, &self.model, is_renewed);
                 self.history.record(act, grab.before);
                 self.relaxer.wake();
                 Ok(Outcome { committed: Some(act.to_owned()), ..Outcome::default() })

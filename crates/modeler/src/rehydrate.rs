@@ -307,7 +307,7 @@ fn embedded(path: &Path, curves: &BTreeMap<CurveId, Arc<CurveShape>>) -> Embedde
 }
 
 /// Marks the skeleton's edges on a curve.
-fn mark_path(mesh: &mut Mesh, embedding: &Embedding, is_closed: bool) {
+pub(crate) fn mark_path(mesh: &mut Mesh, embedding: &Embedding, is_closed: bool) {
     let along: Vec<VertexId> = embedding.along.iter().map(|v| VertexId::from_index(*v as usize)).collect();
     let last = along.last().filter(|_| is_closed);
     for (from, to) in

@@ -2,9 +2,10 @@
 //!
 //! A sheet's skeleton triangulates the control points of its boundary; a sweep's zips the points of two
 //! curves together; that of a surface which was edited on screen is its mesh with everything inessential
-//! taken out ("dehydrated", thesis section 5.2).
+//! taken out ("dehydrated", thesis section 5.2); so is, after a move, that of one whose controls were led far.
 
 mod carry;
+mod renew;
 
 use crate::model::{Model, round_to_digits};
 use crate::shape::SurfaceShape;
@@ -14,6 +15,7 @@ use ductile_spec::{CurveId, Embedding, PointId, Skeleton, SkeletonVertex};
 use glam::DVec3;
 
 pub(crate) use carry::carry_free;
+pub(crate) use renew::renew;
 
 /// Above this many boundary points the cubic search is replaced by a zigzag.
 const MOST_SEARCHED: usize = 250;

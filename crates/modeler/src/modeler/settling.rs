@@ -131,10 +131,15 @@ impl Modeler {
 /// What an act leaves: shapes that can settle, or such as are kept. An act that moved control points changed nothing that the
 /// document's own shape did not come to rest with before. Other acts change skeletons: what such a one opens to often rests
 /// less well than the mesh on which it was made. So do meshes of several densities, which an opening can only guess. Only
-/// where it comes to rest with folds is it tried all the same.
-pub(super) fn worked(before: &Model, now: &Model) -> Making {
+/// where it comes to rest with folds is it tried all the same. Skeletons that a move made be taken anew are no other act.
+pub(super) fn worked(before: &Model, now: &Model, is_renewed: bool) -> Making {
     let mut moved = Document { points: now.document.points.clone(), ..(*before.document).clone() };
     carry_free(&before.document, &mut moved);
+    for (id, surface) in moved.surfaces.iter_mut().filter(|_| is_renewed) {
+        if let Some(now) = now.document.surfaces.get(id) {
+            surface.skeleton.clone_from(&now.skeleton);
+        }
+    }
     let has_only_moved =
         moved == *now.document && before.document.points.keys().eq(now.document.points.keys());
     if !has_only_moved {
