@@ -39,7 +39,7 @@ pub(super) fn whole(kind: &PatchKind, patch: &SPatch) -> Lines {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ductile_patch::s_patch::{Fill, Join};
+    use ductile_patch::s_patch::{Fill, Join, Labels};
     use ductile_patch::{Ribbon, made_compatible};
     #[cfg(target_arch = "wasm32")]
     use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -47,8 +47,8 @@ mod tests {
     /// Flat ribbons of degree 3 around a regular polygon, each leading straight inwards.
     fn flat(sides: u32) -> RibbonLoop {
         let corner = |k: u32| {
-            let angle = f64::from(k % sides) * core::f64::consts::TAU / f64::from(sides);
-            DVec3::new(angle.cos(), angle.sin(), 0.0)
+            let (sin, cos) = libm::sincos(f64::from(k % sides) * core::f64::consts::TAU / f64::from(sides));
+            DVec3::new(cos, sin, 0.0)
         };
         let ribbons = (0..sides).map(|side| {
             let [before, from, to, after] = [side + sides - 1, side, side + 1, side + 2].map(corner);
@@ -70,7 +70,7 @@ mod tests {
             let (places, edges) = whole(&kind, &patch);
             assert_eq!(places, patch.points());
             // Each label of a depth less by one stands for a panel, whose corners follow one another around.
-            let panels = PatchKind::control_points(sides as usize, 2, Join::Tangent) as usize;
+            let panels = Labels::new(sides as usize, patch.depth() - 1).expect("a small one").len();
             assert_eq!(edges.len(), panels * sides as usize);
             let is_step = |[from, to]: [u32; 2]| {
                 let [from, to] = [from, to].map(|rank| kind.labels().get(rank as usize).to_vec());
